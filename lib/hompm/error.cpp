@@ -1,0 +1,40 @@
+#include <hompm/error.hpp>
+
+#include <utility>
+
+#include <hompm/output/number.hpp>
+
+namespace hompm {
+namespace {
+
+std::string join(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += problem.origin.text() + ": " + problem.message;
+  }
+  return text;
+}
+
+std::string invalid_text(std::int64_t step, double time, std::int64_t particle, const std::string& reason) {
+  std::string text = "invalid at step " + std::to_string(step) + ", t = " + to_text(time) + " s";
+  if (particle >= 0) text += ", particle " + std::to_string(particle);
+  return text + ": " + reason;
+}
+
+}  // namespace
+
+std::string Origin::text() const {
+  if (line <= 0) return source;
+  return source + ':' + std::to_string(line) + ':' + std::to_string(column);
+}
+
+SceneError::SceneError(std::vector<Problem> problems) : Error(join(problems)), problems_(std::move(problems)) {}
+
+SceneError::SceneError(const Origin& origin, const std::string& message)
+    : SceneError(std::vector<Problem>{{origin, message}}) {}
+
+InvalidRun::InvalidRun(std::int64_t step_, double time_, std::int64_t particle_, const std::string& reason)
+    : Error(invalid_text(step_, time_, particle_, reason)), step(step_), time(time_), particle(particle_) {}
+
+}  // namespace hompm

@@ -1,0 +1,62 @@
+// Errors the library throws. Each carries a message made for the reader; the command line turns the type
+// into an exit code.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hompm {
+
+/// Where a value was said: a scene file with line and column, or a command-line option.
+struct Origin {
+  std::string source;  ///< file name, "--cells", or "built-in scene column-large"
+  int line = 0;        ///< 1-based; 0 when the source has no lines
+  int column = 0;      ///< 1-based; 0 when the source has no lines
+
+  /// "file:line:column", or the source alone when it has no lines.
+  [[nodiscard]] std::string text() const;
+};
+
+/// Base of all errors of the library.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// One thing wrong with a scene: where, and what to do about it.
+struct Problem {
+  Origin origin;
+  std::string message;
+};
+
+/// A scene or an option that cannot be computed. Thrown before anything is computed or written.
+class SceneError : public Error {
+ public:
+  /// `problems` must not be empty; `what()` joins them, one line each, as "origin: message".
+  explicit SceneError(std::vector<Problem> problems);
+  SceneError(const Origin& origin, const std::string& message);
+  [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// A run that stopped being valid: unstable, inverted, left the grid.
+class InvalidRun : public Error {
+ public:
+  /// `particle` is 0-based, or −1 where no single particle is to blame; `step` counts from 1, `time` in s.
+  InvalidRun(std::int64_t step, double time, std::int64_t particle, const std::string& reason);
+  std::int64_t step;
+  double time;
+  std::int64_t particle;
+};
+
+/// A file or folder that cannot be read or written; `what()` names the path and the system's reason.
+class FileError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace hompm
