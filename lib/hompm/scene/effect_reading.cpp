@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <hompm/effects/registry.hpp>
+#include <hompm/scene/reading.hpp>
+
+namespace hompm::detail {
+namespace {
+
+const EffectType& find_effect(const std::string& name) {
+  return *std::find_if(effect_catalogue().begin(), effect_catalogue().end(),
+                       [&](const EffectType& type) { return type.name == name; });
+}
+
+ValueRule type_rule() {
+  ValueRule rule{.type = ValueType::word};
+  for (const EffectType& type : effect_catalogue()) rule.words.push_back(type.name);
+  return rule;
+}
+
+EffectSpec::Value parameter_value(const Content& content) {
+  if (const auto* number = std::get_if<double>(&content)) return *number;
+  return std::get<std::string>(content);
+}
+
+// Reports what the effect does not know; returns the parameters that were meant.
+std::set<std::string> check_parameter_names(Reading& reading, const EffectType& type,
+                                            const std::string& path) {
+  std::vector<std::string> names{"type"};
+  for (const EffectParameter& parameter : type.parameters) names.push_back(parameter.name);
+  std::set<std::string> meant;
+  for (const auto& [key, value] : reading.said.values) {
+    if (value.parent != path || std::find(names.begin(), names.end(), value.name) != names.end()) continue;
+    const std::string near = nearest(value.name, names);
+    meant.insert(near);
+    reading.report(value.key,
+                   "unknown key `" + printable(value.name) + "` of the effect " + type.name +
+                       (near.empty() ? "; it has " + listed(names) : "; did you mean `" + near + "`?"));
+  }
+  return meant;
+}
+
+void read_parameters(Reading& reading, const EffectType& type, const std::string& path, EffectSpec& effect) {
+  const std::set<std::string> meant = check_parameter_names(reading, type, path);
+  for (const EffectParameter& parameter : type.parameters) {
+    const ValueRule rule = rule_of(parameter);
+    const std::string key = join_path(path, parameter.name);
+    const std::string label = '`' + parameter.name + "` of the effect " + type.name;
+    if (!reading.silent_on(key)) {
+      const auto value = reading.take(key, label, rule);
+      if (value) effect.parameters[parameter.name] = parameter_value(*value);
+    } else if (parameter.default_value) {
+      effect.parameters[parameter.name] = *parameter.default_value;
+    } else if (!meant.contains(parameter.name)) {
+      reading.report(effect.origin, label + " is missing; it must be " + demand(rule));
+    }
+  }
+}
+
+// A traction on an end that does not move would do nothing.
+void check_end(Reading& reading, const EffectSpec& effect, const std::string& path) {
+  const auto parameter = effect.parameters.find("end");
+  if (parameter == effect.parameters.end() || effect.type.find("traction") == std::string::npos) return;
+  const std::string& end = std::get<std::string>(parameter->second);
+  const std::string key = "ends." + end;
+  const bool known = reading.has(key) || reading.silent_on(key);
+  const bool fixed = (end == "left" ? reading.scene.ends.left : reading.scene.ends.right) == End::fixed;
+  if (!known || !fixed) return;
+  reading.report(reading.said.where(path + ".end"), "a traction acts on a free end; " + key + " is fixed");
+}
+
+}  // namespace
+
+void read_effects(Reading& reading) {
+  const ValueRule rule = type_rule();
+  for (std::size_t index = 0; !reading.silent_on(effect_path(index)); ++index) {
+    const std::string path = effect_path(index);
+    const SaidValue& table = reading.said.values.at(path);
+    if (!std::holds_alternative<Table>(table.content)) {
+      reading.report(table.value, "an effect must be a table, [[effect]], not " + shown(table.content));
+      continue;
+    }
+    EffectSpec effect{"", {}, table.value};
+    reading.scene.origins[path] = table.value;
+    const std::string type_key = path + ".type";
+    if (reading.silent_on(type_key)) {
+      reading.report(table.value, "the `type` of the effect is missing; it must be " + demand(rule));
+    } else if (const auto type = reading.take(type_key, "the `type` of an effect", rule)) {
+      effect.type = std::get<std::string>(*type);
+      read_parameters(reading, find_effect(effect.type), path, effect);
+      check_end(reading, effect, path);
+      reading.scene.effects.push_back(std::move(effect));
+    }
+  }
+}
+
+}  // namespace hompm::detail

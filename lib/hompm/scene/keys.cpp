@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <array>
+#include <hompm/scene/keys.hpp>
+#include <hompm/scene/reader.hpp>
+#include <hompm/scene/toml_values.hpp>
+#include <hompm/scheme/scheme.hpp>
+
+namespace hompm {
+namespace detail {
+namespace {
+
+constexpr double largest_int = std::numeric_limits<int>::max();
+
+ValueRule number(const std::string& unit) { return {.type = ValueType::number, .unit = unit}; }
+
+ValueRule positive(const std::string& unit) {
+  return {.type = ValueType::number, .unit = unit, .minimum = 0.0, .minimum_excluded = true};
+}
+
+ValueRule whole(double minimum, double maximum) {
+  return {.type = ValueType::integer, .minimum = minimum, .maximum = maximum};
+}
+
+ValueRule word(const std::vector<std::string>& words) { return {.type = ValueType::word, .words = words}; }
+
+ValueRule any(ValueType type) { return {.type = type}; }
+
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const Scheme& scheme : scheme_table()) names.push_back(scheme.name);
+  return names;
+}
+
+std::string degree_range() {
+  std::string text;
+  for (const Scheme& scheme : scheme_table()) {
+    text += (text.empty() ? "" : "; ") + scheme.name + ": " + std::to_string(scheme.lowest_degree) + " … " +
+            std::to_string(scheme.highest_degree);
+  }
+  return text;
+}
+
+std::vector<KeyRow> make_key_table() {
+  using enum Absent;
+  const ValueRule text = any(ValueType::text);
+  const ValueRule end = word({"fixed", "free"});  // in the order of the enumeration
+  const std::string one_of = "exactly one of time_step, courant, step_fraction must be given";
+  return {
+      {"case", text, derived, "the name of the file", "", "what the scene is called",
+       [](Scene& scene) -> Slot { return &scene.case_name; }},
+      {"variant", text, standard, "\"\"", "", "which of several scenes of one case",
+       [](Scene& scene) -> Slot { return &scene.variant; }},
+      {"title", text, standard, "\"\"", "", "one line about the scene",
+       [](Scene& scene) -> Slot { return &scene.title; }},
+      {"end_time", positive("s"), missing, "", "", "when the run ends",
+       [](Scene& scene) -> Slot { return &scene.end_time; }},
+      {"kinematics", word({"infinitesimal", "finite"}), derived,
+       "infinitesimal with the law linear, else finite", "one of infinitesimal, finite, as the law demands",
+       "whether positions and volumes change", [](Scene& scene) -> Slot { return &scene.kinematics; }},
+
+      {"body.length", positive("m"), missing, "", "", "length of the undeformed body",
+       [](Scene& scene) -> Slot { return &scene.body.length; }},
+
+      {"material.law", word({"linear", "rate", "hencky", "neo-hookean"}), missing, "", "", "constitutive law",
+       [](Scene& scene) -> Slot { return &scene.material.law; }},
+      {"material.density", positive("kg/m³"), missing, "", "", "density of the undeformed material",
+       [](Scene& scene) -> Slot { return &scene.material.density; }},
+      {"material.youngs_modulus", positive("Pa"), missing, "", "", "stiffness of the undeformed material",
+       [](Scene& scene) -> Slot { return &scene.material.youngs_modulus; }},
+
+      {"initial.velocity.shape", word({"sine"}), missing, "", "",
+       "velocity at the start: amplitude · sin(mode π X / length)",
+       [](Scene& scene) -> Slot { return &scene.initial_velocity->shape; }},
+      {"initial.velocity.amplitude", number("m/s"), missing, "", "", "largest velocity at the start",
+       [](Scene& scene) -> Slot { return &scene.initial_velocity->amplitude; }},
+      {"initial.velocity.mode", whole(1.0, largest_int), standard, "1", "", "half waves over the body",
+       [](Scene& scene) -> Slot { return &scene.initial_velocity->mode; }},
+
+      {"ends.left", end, standard, "\"fixed\"", "", "the end at X = 0",
+       [](Scene& scene) -> Slot { return &scene.ends.left; }},
+      {"ends.right", end, standard, "\"fixed\"", "", "the end at X = length",
+       [](Scene& scene) -> Slot { return &scene.ends.right; }},
+
+      {"rest.speed", positive("m/s"), missing, "", "",
+       "the run also ends once the grid velocity has not passed it for the time a wave takes through the "
+       "body and back",
+       [](Scene& scene) -> Slot { return &scene.rest->speed; }},
+
+      {"scheme.name", word(scheme_names()), standard, "\"tielen2017\"", "", "how the scene is discretised",
+       [](Scene& scene) -> Slot { return &scene.scheme.name; }},
+      {"scheme.degree", any(ValueType::integer), derived, "the scheme's own", degree_range(),
+       "degree of the splines", [](Scene& scene) -> Slot { return &scene.scheme.degree; }},
+      {"scheme.cells", whole(1.0, 1e7), missing, "", "", "grid cells over the body",
+       [](Scene& scene) -> Slot { return &scene.scheme.cells; }},
+      {"scheme.particles_per_cell", whole(1.0, 1000.0), missing, "", "", "particles in each cell of the body",
+       [](Scene& scene) -> Slot { return &scene.scheme.particles_per_cell; }},
+      {"scheme.margin_cells",
+       {.type = ValueType::integer, .maximum = 1e7},
+       derived,
+       "a quarter of cells, at least degree + 2",
+       "≥ degree + 1, ≤ 10000000",
+       "grid cells beyond a free end",
+       [](Scene& scene) -> Slot { return &scene.scheme.margin_cells; }},
+      {"scheme.time_step", positive("s"), derived, "", "", "the step; " + one_of,
+       [](Scene& scene) -> Slot { return &scene.scheme.time_step; }},
+      {"scheme.courant", positive(""), derived, "", "",
+       "the step over the time a wave takes through a cell; " + one_of,
+       [](Scene& scene) -> Slot { return &scene.scheme.courant; }},
+      {"scheme.step_fraction", positive(""), derived, "", "",
+       "the step over the largest stable step of the scheme; " + one_of,
+       [](Scene& scene) -> Slot { return &scene.scheme.step_fraction; }},
+      {"scheme.allow_unstable", any(ValueType::boolean), standard, "false", "",
+       "run with a step that is too large",
+       [](Scene& scene) -> Slot { return &scene.scheme.allow_unstable; }},
+
+      {"output.snapshots", whole(1.0, 10000.0), standard, "10", "",
+       "times at which particles are written after the start",
+       [](Scene& scene) -> Slot { return &scene.output.snapshots; }},
+      {"output.history", whole(1.0, 1e6), standard, "100", "", "rows of the history after the start",
+       [](Scene& scene) -> Slot { return &scene.output.history; }},
+  };
+}
+
+constexpr std::array optional_tables{
+    OptionalTable{"initial.velocity", [](const Scene& scene) { return scene.initial_velocity.has_value(); },
+                  [](Scene& scene) { scene.initial_velocity.emplace(); }},
+    OptionalTable{"rest", [](const Scene& scene) { return scene.rest.has_value(); },
+                  [](Scene& scene) { scene.rest.emplace(); }}};
+
+}  // namespace
+
+const std::vector<KeyRow>& key_table() {
+  static const std::vector<KeyRow> table = make_key_table();
+  return table;
+}
+
+const KeyRow* find_key(const std::string& path) {
+  for (const KeyRow& row : key_table()) {
+    if (row.path == path) return &row;
+  }
+  return nullptr;
+}
+
+const OptionalTable* find_optional_table(const std::string& path) {
+  for (const OptionalTable& table : optional_tables) {
+    if (table.path == path) return &table;
+  }
+  return nullptr;
+}
+
+bool is_table(const std::string& path) {
+  return std::any_of(key_table().begin(), key_table().end(),
+                     [&](const KeyRow& row) { return row.path.starts_with(path + '.'); });
+}
+
+std::vector<std::string> names_in(const std::string& path) {
+  std::vector<std::string> names;
+  const std::string prefix = path.empty() ? "" : path + '.';
+  for (const KeyRow& row : key_table()) {
+    if (!row.path.starts_with(prefix)) continue;
+    const std::string rest = row.path.substr(prefix.size());
+    const std::string name = rest.substr(0, rest.find('.'));
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
+  if (path.empty()) names.emplace_back("effect");
+  return names;
+}
+
+}  // namespace detail
+
+const std::vector<SceneKey>& scene_keys() {
+  static const std::vector<SceneKey> keys = [] {
+    std::vector<SceneKey> all;
+    for (const detail::KeyRow& row : detail::key_table()) {
+      all.push_back({row.path, detail::type_name(row.rule.type), row.rule.unit,
+                     row.range.empty() ? detail::range_text(row.rule) : row.range, row.standard,
+                     row.meaning});
+    }
+    return all;
+  }();
+  return keys;
+}
+
+}  // namespace hompm

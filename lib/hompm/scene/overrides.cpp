@@ -1,0 +1,98 @@
+// What the command line says in place of the file.
+#include <charconv>
+#include <hompm/scene/reading.hpp>
+#include <optional>
+
+namespace hompm::detail {
+namespace {
+
+Origin origin_of(const Override& said) { return {printable(said.option, said.option.size()), 0, 0}; }
+
+std::size_t effect_count(const Said& said) {
+  std::size_t count = 0;
+  while (said.find(effect_path(count)) != nullptr) ++count;
+  return count;
+}
+
+std::string type_of(const Said& said, std::size_t index) {
+  const SaidValue* type = said.find(effect_path(index) + ".type");
+  const auto* name = type != nullptr ? std::get_if<std::string>(&type->content) : nullptr;
+  return name != nullptr ? *name : "";
+}
+
+// The index in "effect[2]", or of the first effect of the type in "effect.gravity".
+std::optional<std::size_t> effect_index(const Said& said, const std::string& which) {
+  const std::size_t count = effect_count(said);
+  if (which.starts_with('[') && which.ends_with(']')) {
+    std::size_t index = count;
+    const char* end = which.data() + which.size() - 1;
+    const auto [stop, error] = std::from_chars(which.data() + 1, end, index);
+    if (error == std::errc{} && stop == end && index < count) return index;
+    return std::nullopt;
+  }
+  for (std::size_t index = 0; index < count; ++index) {
+    if ('.' + type_of(said, index) == which) return index;
+  }
+  return std::nullopt;
+}
+
+std::string effects_there(const Said& said) {
+  std::vector<std::string> types;
+  for (std::size_t index = 0; index < effect_count(said); ++index) types.push_back(type_of(said, index));
+  return types.empty() ? "it has no effects" : "its effects: " + listed(types);
+}
+
+// "effect.gravity.acceleration" and "effect[0].acceleration" as "effect[0].acceleration"; reports an effect
+// that the scene does not have.
+std::optional<std::string> resolved(Reading& reading, const Override& said) {
+  const bool by_type = said.key.starts_with("effect.");
+  if (!by_type && !said.key.starts_with("effect[") && said.key != "effect") return said.key;
+  const std::string rest = said.key.substr(std::string("effect").size());
+  const std::size_t dot = rest.find('.', by_type ? 1 : 0);
+  const Origin origin = origin_of(said);
+  if (dot == std::string::npos || dot + 1 == rest.size()) {
+    reading.report(origin, '`' + printable(said.key) +
+                               "` names no parameter of an effect; write it as effect.gravity.acceleration");
+    return std::nullopt;
+  }
+  const std::string which = rest.substr(0, dot);
+  const auto index = effect_index(reading.said, which);
+  if (!index) {
+    reading.report(origin, "the scene has no effect `" +
+                               printable(by_type ? which.substr(1) : "effect" + which) + "`; " +
+                               effects_there(reading.said));
+    return std::nullopt;
+  }
+  return effect_path(*index) + rest.substr(dot);
+}
+
+}  // namespace
+
+void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
+  std::map<std::string, SaidValue> said;
+  for (const Override& wish : overrides) {
+    const auto path = resolved(reading, wish);
+    if (!path) continue;
+    const Origin origin = origin_of(wish);
+    const Content content = parse_value(wish.value);
+    if (std::holds_alternative<Table>(content) || std::holds_alternative<Array>(content)) {
+      reading.report(origin, '`' + printable(wish.key) + "` takes one value, not " + shown(content));
+    } else {
+      said[*path] = {content, parent_path(*path), last_name(*path), origin, origin};
+    }
+  }
+  auto& values = reading.said.values;
+  if (said.contains("scheme.name")) {
+    // What suits one scheme need not suit another.
+    values.erase("scheme.degree");
+    values.erase("scheme.margin_cells");
+  }
+  const std::vector<std::string> steps{"scheme.time_step", "scheme.courant", "scheme.step_fraction"};
+  for (const std::string& step : steps) {
+    if (!said.contains(step)) continue;
+    for (const std::string& other : steps) values.erase(other);
+  }
+  for (auto& [path, value] : said) values[path] = std::move(value);
+}
+
+}  // namespace hompm::detail

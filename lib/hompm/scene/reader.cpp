@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <hompm/scene/keys.hpp>
+#include <hompm/scene/reader.hpp>
+#include <hompm/scene/reading.hpp>
+#include <tuple>
+#include <utility>
+
+namespace hompm {
+namespace detail {
+
+void Reading::report(const Origin& origin, std::string message) {
+  problems.push_back({origin, std::move(message)});
+}
+
+std::optional<Content> Reading::take(const std::string& path, const std::string& label,
+                                     const ValueRule& rule) {
+  const SaidValue& value = said.values.at(path);
+  std::optional<Content> content = accepted(rule, value.content);
+  if (content) {
+    scene.origins[path] = value.key;
+    return content;
+  }
+  std::string message = label + " must be " + demand(rule) + ", not " + shown(value.content);
+  if (const auto* text = std::get_if<std::string>(&value.content)) {
+    const std::string near = nearest(*text, rule.words);
+    if (!near.empty()) message += "; did you mean \"" + near + "\"?";
+  }
+  report(value.value, std::move(message));
+  return std::nullopt;
+}
+
+void read_keys(Reading& reading) {
+  for (const KeyRow& row : key_table()) {
+    const std::string table = parent_path(row.path);
+    if (const OptionalTable* optional = find_optional_table(table)) {
+      const auto below = reading.said.values.lower_bound(table + '.');
+      if (below == reading.said.values.end() || below->second.parent != table) continue;
+      if (!optional->present(reading.scene)) optional->create(reading.scene);
+    }
+    if (reading.said.find(row.path) != nullptr) {
+      const auto value = reading.take(row.path, '`' + row.path + '`', row.rule);
+      if (value) store(row, *value, reading.scene);
+    } else if (row.absent == Absent::standard) {
+      store(row, accepted(row.rule, parse_value(row.standard)).value(), reading.scene);
+    } else if (row.absent == Absent::missing && !reading.meant.contains(row.path) &&
+               !reading.meant.contains(table)) {
+      reading.report(reading.said.where(table),
+                     '`' + row.path + "` is missing; it must be " + demand(row.rule));
+    }
+  }
+}
+
+namespace {
+
+// Options come after the file, in the order in which they were found wrong.
+void sort_by_position(std::vector<Problem>& problems, const std::string& file) {
+  const auto position = [&](const Problem& problem) {
+    return std::tuple(problem.origin.source != file, problem.origin.line, problem.origin.column);
+  };
+  std::stable_sort(problems.begin(), problems.end(),
+                   [&](const Problem& a, const Problem& b) { return position(a) < position(b); });
+}
+
+std::string file_text(const std::string& path) {
+  constexpr std::size_t largest = 4U << 20U;
+  const auto fail = [&](const std::string& reason) {
+    throw FileError("cannot read " + path + ": " + reason);
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail("it is a folder");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(std::strerror(errno));
+  std::string text(largest + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) fail(std::strerror(errno));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > largest) fail("it has more than 4 MiB, which no scene needs");
+  return text;
+}
+
+}  // namespace
+}  // namespace detail
+
+Scene parse_scene(const std::string& text, const std::string& source,
+                  const std::vector<Override>& overrides) {
+  detail::Reading reading{detail::read_toml(text, source), {}, {}, {}};
+  detail::apply_overrides(reading, overrides);
+  detail::check_names(reading);
+  detail::read_keys(reading);
+  detail::read_effects(reading);
+  detail::complete(reading);
+  if (!reading.problems.empty()) {
+    detail::sort_by_position(reading.problems, source);
+    throw SceneError(std::move(reading.problems));
+  }
+  return std::move(reading.scene);
+}
+
+Scene load_scene(const std::string& path, const std::vector<Override>& overrides) {
+  return parse_scene(detail::file_text(path), path, overrides);
+}
+
+}  // namespace hompm

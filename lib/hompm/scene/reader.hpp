@@ -1,0 +1,60 @@
+// Scene files: reading, checking, built-in scenes, and writing the resolved scene back.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <hompm/scene/scene.hpp>
+
+namespace hompm {
+
+/// A key of the scene said on the command line. `value` is TOML text ("64", "1e-4", "\"rate\"") or a bare word, which
+/// is taken as a string. `option` is what an error points at: "--cells 64" or "--set scheme.cells=64".
+struct Override {
+  std::string key;
+  std::string value;
+  std::string option;
+};
+
+/// A scene shipped with the library.
+struct BuiltinScene {
+  std::string case_name;
+  std::string variant;
+  bool is_default;   ///< the variant taken when only the case is named
+  std::string text;  ///< TOML
+};
+
+/// All built-in scenes, in the order in which `--list` shows them.
+const std::vector<BuiltinScene>& builtin_scenes();
+
+/// The built-in scene `case_name`, `variant` ("" for the default variant) with the overrides applied.
+/// Throws `SceneError` for an unknown name (naming the nearest) or a bad override.
+Scene load_builtin(const std::string& case_name, const std::string& variant, const std::vector<Override>& overrides);
+
+/// A scene file with the overrides applied. Throws `FileError` when it cannot be read, `SceneError` with *all* problems
+/// of the file otherwise, each with file, line and column, the offending value and the nearest valid one.
+Scene load_scene(const std::string& path, const std::vector<Override>& overrides);
+
+/// A scene from text; `source` names it in messages. Throws as `load_scene`.
+Scene parse_scene(const std::string& text, const std::string& source, const std::vector<Override>& overrides);
+
+/// The resolved scene as TOML, every default written out; reading it gives the same scene, and writing that the same bytes.
+std::string scene_text(const Scene& scene);
+
+/// One key a scene file may hold, for the reference documentation and `--list`.
+struct SceneKey {
+  std::string path;      ///< "scheme.cells"
+  std::string type;      ///< number, integer, word, text, boolean
+  std::string unit;      ///< SI; "" for none
+  std::string range;     ///< "> 0", "1 … 5", "one of rate, …"
+  std::string standard;  ///< default as TOML text, or in words where it follows from other keys; "" for none
+  std::string meaning;
+};
+
+/// All keys outside `[[effect]]`, whose parameters are in the effect catalogue.
+const std::vector<SceneKey>& scene_keys();
+
+/// The candidate nearest to `word` in edit distance, or "" when none is near enough to be what was meant.
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace hompm

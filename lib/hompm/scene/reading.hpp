@@ -1,0 +1,44 @@
+// The stations a scene passes on its way from TOML to a Scene. Each reports what it finds wrong and goes on.
+#pragma once
+
+#include <hompm/scene/reader.hpp>
+#include <hompm/scene/toml_values.hpp>
+#include <hompm/scene/value_rule.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace hompm::detail {
+
+struct Reading {
+  Said said;
+  Scene scene;
+  std::vector<Problem> problems;
+  std::set<std::string> meant;  ///< keys that a misspelt one stands for: not reported as missing too
+
+  void report(const Origin& origin, std::string message);
+  /// Whether the key was said and accepted.
+  [[nodiscard]] bool has(const std::string& path) const { return scene.origins.contains(path); }
+  /// Whether the scene leaves the key to its default.
+  [[nodiscard]] bool silent_on(const std::string& path) const { return said.find(path) == nullptr; }
+  /// The value at `path` where the rule accepts it, which also notes its origin; otherwise reports, calling
+  /// the key `label`. The key must have been said.
+  std::optional<Content> take(const std::string& path, const std::string& label, const ValueRule& rule);
+};
+
+/// Puts the overrides in the place of what the file says.
+void apply_overrides(Reading& reading, const std::vector<Override>& overrides);
+
+/// Reports keys and tables that no scene has, outside `[[effect]]`.
+void check_names(Reading& reading);
+
+/// Fills the scene from the table of keys.
+void read_keys(Reading& reading);
+
+/// Fills `scene.effects` from the effect catalogue.
+void read_effects(Reading& reading);
+
+/// Derives the defaults that follow from other keys, and checks the keys against each other.
+void complete(Reading& reading);
+
+}  // namespace hompm::detail

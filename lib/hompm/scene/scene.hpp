@@ -1,0 +1,96 @@
+// What is simulated, and how: the plain data of a scene after reading, with every default filled in.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <hompm/error.hpp>
+
+namespace hompm {
+
+struct Body {
+  double length = 0.0;  ///< m; material at [0, length] at the start
+};
+
+struct MaterialSpec {
+  std::string law;              ///< linear, rate, hencky, neo-hookean
+  double density = 0.0;         ///< kg/m³, of the undeformed material
+  double youngs_modulus = 0.0;  ///< Pa
+};
+
+/// v(X, 0) = amplitude · sin(mode π X / length)
+struct InitialVelocity {
+  std::string shape;       ///< sine
+  double amplitude = 0.0;  ///< m/s
+  int mode = 1;            ///< half waves over the body
+};
+
+enum class End { fixed, free };
+enum class Kinematics { infinitesimal, finite };
+
+struct Ends {
+  End left = End::fixed;
+  End right = End::fixed;
+};
+
+/// One `[[effect]]` table. Which parameters it has is the business of the effect (effects/registry.hpp).
+struct EffectSpec {
+  using Value = std::variant<double, std::int64_t, std::string>;
+  std::string type;
+  std::map<std::string, Value> parameters;
+  Origin origin;
+
+  [[nodiscard]] double number(const std::string& key) const { return std::get<double>(parameters.at(key)); }
+  [[nodiscard]] const std::string& text(const std::string& key) const {
+    return std::get<std::string>(parameters.at(key));
+  }
+};
+
+/// Exactly one of `time_step`, `courant`, `step_fraction` is set.
+struct SchemeSpec {
+  std::string name;
+  int degree = 0;
+  int cells = 0;               ///< over the body's length
+  int particles_per_cell = 0;
+  int margin_cells = 0;        ///< grid cells beyond each free end
+  std::optional<double> time_step;      ///< s
+  std::optional<double> courant;        ///< c Δt / h
+  std::optional<double> step_fraction;  ///< Δt over the critical step of the scheme
+  bool allow_unstable = false;          ///< run with a step above the critical one all the same
+};
+
+/// The run ends as soon as the body is at rest: when the grid velocity has not passed `speed` for the time a
+/// wave takes to travel the body and back.
+struct Rest {
+  double speed = 0.0;  ///< m/s
+};
+
+struct OutputSpec {
+  int snapshots = 10;  ///< after the start, evenly spaced in time
+  int history = 100;   ///< rows of history.csv after the start
+};
+
+struct Scene {
+  std::string case_name;  ///< "bar", "column", or the name of a scene of one's own
+  std::string variant;    ///< "" where there is none
+  std::string title;
+  double end_time = 0.0;  ///< s
+  Kinematics kinematics = Kinematics::finite;
+  Body body;
+  MaterialSpec material;
+  std::optional<InitialVelocity> initial_velocity;
+  Ends ends;
+  std::vector<EffectSpec> effects;
+  std::optional<Rest> rest;
+  SchemeSpec scheme;
+  OutputSpec output;
+
+  /// Where each key was said ("scheme.cells", "effect[0].acceleration"); a key left to its default is absent.
+  std::map<std::string, Origin> origins;
+};
+
+}  // namespace hompm

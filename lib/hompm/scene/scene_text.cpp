@@ -1,0 +1,62 @@
+// The resolved scene as TOML.
+#include <algorithm>
+#include <hompm/effects/registry.hpp>
+#include <hompm/scene/keys.hpp>
+#include <hompm/scene/reader.hpp>
+#include <hompm/scene/toml_values.hpp>
+
+namespace hompm {
+namespace {
+
+std::string line(const std::string& name, const std::string& value, const std::string& unit) {
+  return name + " = " + value + (unit.empty() ? "" : "  # " + unit) + '\n';
+}
+
+std::string value_text(const EffectSpec::Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return detail::toml_number(*number);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  return detail::toml_string(std::get<std::string>(value));
+}
+
+std::string unit_of(const std::string& effect, const std::string& parameter) {
+  for (const EffectType& type : effect_catalogue()) {
+    if (type.name != effect) continue;
+    for (const EffectParameter& row : type.parameters) {
+      if (row.name == parameter) return detail::rule_of(row).unit;
+    }
+  }
+  return "";
+}
+
+std::string effect_text(const EffectSpec& effect) {
+  std::string text = "\n[[effect]]\n" + line("type", detail::toml_string(effect.type), "");
+  for (const auto& [name, value] : effect.parameters)
+    text += line(name, value_text(value), unit_of(effect.type, name));
+  return text;
+}
+
+}  // namespace
+
+std::string scene_text(const Scene& scene) {
+  Scene copy = scene;  // the key table points into a scene that it may change
+  std::string text;
+  std::string table;
+  for (const detail::KeyRow& row : detail::key_table()) {
+    const std::string parent = detail::parent_path(row.path);
+    const auto* optional = detail::find_optional_table(parent);
+    if (optional != nullptr && !optional->present(scene)) continue;
+    const std::string value = detail::load_text(row, copy);
+    if (value.empty()) continue;
+    if (parent != table) {
+      if (table == "ends") {
+        for (const EffectSpec& effect : scene.effects) text += effect_text(effect);
+      }
+      text += "\n[" + parent + "]\n";
+      table = parent;
+    }
+    text += line(detail::last_name(row.path), value, row.rule.unit);
+  }
+  return text;
+}
+
+}  // namespace hompm

@@ -1,0 +1,43 @@
+// What a key accepts: its type, unit, range and words, and how to say so.
+#pragma once
+
+#include <hompm/effects/registry.hpp>
+#include <hompm/scene/content.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hompm::detail {
+
+enum class ValueType { number, integer, boolean, word, text };
+
+struct ValueRule {
+  ValueType type = ValueType::number;
+  std::string unit{};  ///< SI; "" for none
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool minimum_excluded = false;
+  std::vector<std::string> words{};  ///< of a word
+};
+
+/// The rule of a parameter of an effect.
+ValueRule rule_of(const EffectParameter& parameter);
+
+/// "number", "integer", …
+std::string type_name(ValueType type);
+
+/// The range for a table of keys: "> 0", "1 … 5", "one of fixed, free"; "" where anything goes.
+std::string range_text(const ValueRule& rule);
+
+/// What a value must be, to follow "must be": "a whole number from 1 to 5", "a number greater than 0 (m)".
+std::string demand(const ValueRule& rule);
+
+/// The content as the type of the rule holds it (a whole number given for a number becomes a double); nothing
+/// where the rule forbids it.
+std::optional<Content> accepted(const ValueRule& rule, const Content& content);
+
+/// "a, b, c"
+std::string listed(const std::vector<std::string>& words);
+
+}  // namespace hompm::detail
