@@ -1,0 +1,61 @@
+#include <hompm/plan/invalid.hpp>
+
+#include <cmath>
+#include <string>
+
+#include <hompm/error.hpp>
+#include <hompm/output/number.hpp>
+
+namespace hompm::detail {
+namespace {
+
+std::string text(double value) { return std::isfinite(value) ? to_text(value) : "not a finite number"; }
+
+[[noreturn]] void invalid(const State& state, std::int64_t particle, const std::string& reason) {
+  throw InvalidRun(state.step, state.time, particle, reason);
+}
+
+std::string grid_text(const State& state) {
+  return "[" + to_text(state.grid.origin()) + ", " + to_text(state.grid.breakpoint(state.grid.cells())) + "] m";
+}
+
+}  // namespace
+
+void throw_left_grid(const State& state, std::size_t particle) {
+  invalid(state, static_cast<std::int64_t>(particle),
+          "left the grid: its position is " + text(state.particles.position[particle]) + ", the grid is " +
+              grid_text(state) + "; a step that is too large or too small a scheme.margin_cells are the usual causes");
+}
+
+void throw_boundary_left_grid(const State& state, double boundary) {
+  invalid(state, -1,
+          "the free end left the grid: it is at " + text(boundary) + ", the grid is " + grid_text(state) +
+              "; raise scheme.margin_cells");
+}
+
+void throw_inverted(const State& state, std::size_t particle, double stretch) {
+  invalid(state, static_cast<std::int64_t>(particle),
+          "inverted: its stretch became " + text(stretch) +
+              "; a step that is too large or too few particles per cell are the usual causes");
+}
+
+void throw_out_of_order(const State& state, std::size_t particle) {
+  invalid(state, static_cast<std::int64_t>(particle),
+          "passed its left neighbour: at " + text(state.particles.position[particle]) + " m, the neighbour at " +
+              text(state.particles.position[particle - 1]) +
+              " m; the reconstruction needs particles in order (step too large, or motion the grid cannot resolve)");
+}
+
+void throw_negative_density(const State& state, double position, double density) {
+  invalid(state, -1,
+          "the density spline is not positive at x = " + text(position) + " m: " + text(density) +
+              " kg/m^3; the front is too steep for the particles there, use more of them");
+}
+
+void throw_singular_mass(const State& state, std::size_t function) {
+  invalid(state, -1,
+          "the consistent mass matrix is singular at grid function " + std::to_string(function) +
+              "; use more particles per cell");
+}
+
+}  // namespace hompm::detail

@@ -1,0 +1,16 @@
+// How a stage says that the run stopped being valid.
+#pragma once
+
+#include <hompm/plan/state.hpp>
+
+namespace hompm::detail {
+
+/// Each throws `InvalidRun` with the step under way, its time, and the particle where there is one.
+[[noreturn]] void throw_left_grid(const State& state, std::size_t particle);
+[[noreturn]] void throw_boundary_left_grid(const State& state, double boundary);
+[[noreturn]] void throw_inverted(const State& state, std::size_t particle, double stretch);
+[[noreturn]] void throw_out_of_order(const State& state, std::size_t particle);
+[[noreturn]] void throw_negative_density(const State& state, double position, double density);
+[[noreturn]] void throw_singular_mass(const State& state, std::size_t function);
+
+}  // namespace hompm::detail

@@ -1,0 +1,61 @@
+// A plan is the ordered list of stages that a scene and a scheme call for; nothing else is constructed.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <hompm/plan/state.hpp>
+#include <hompm/scene/scene.hpp>
+
+namespace hompm {
+
+/// The parts of a step, in the order in which they run.
+enum class Phase {
+  geometry,        ///< what depends on the positions alone: once per run with infinitesimal kinematics
+  internal_force,  ///< sets force = −f_int
+  external_force,  ///< effects add to the force
+  damping_force,   ///< effects that need the whole out-of-balance force
+  acceleration,    ///< grid acceleration, particle velocity
+  velocity,        ///< particle velocity to the grid
+  work,            ///< effects book what their forces did
+  motion,          ///< displacement, stretch, stress
+  count_
+};
+
+struct Stage {
+  std::string name;
+  std::string arrays;     ///< what the stage owns beyond the state's arrays, for --explain
+  std::string called_by;  ///< "scheme tielen2017", "effect gravity (column.toml:19:1)"
+  std::function<void(State&)> run;
+};
+
+struct Plan {
+  std::array<std::vector<Stage>, static_cast<std::size_t>(Phase::count_)> phases;
+  /// Potential energies (J/m²) of the loads that have one.
+  std::vector<std::function<double(const State&)>> potentials;
+
+  [[nodiscard]] const std::vector<Stage>& operator[](Phase phase) const {
+    return phases[static_cast<std::size_t>(phase)];
+  }
+  void run(Phase phase, State& state) const {
+    for (const Stage& stage : (*this)[phase]) stage.run(state);
+  }
+};
+
+/// What a scheme or an effect gets when it joins a plan.
+struct PlanBuilder {
+  const Scene& scene;
+  const State& state;
+  Plan plan = {};
+  std::string called_by = {};  ///< set before each effect or choice joins
+
+  void add(Phase phase, std::string name, std::function<void(State&)> run, std::string arrays = {}) {
+    plan.phases[static_cast<std::size_t>(phase)].push_back(
+        {std::move(name), std::move(arrays), called_by, std::move(run)});
+  }
+};
+
+}  // namespace hompm

@@ -1,0 +1,53 @@
+#include <hompm/plan/state.hpp>
+
+#include <hompm/numerics/elementary.hpp>
+
+namespace hompm {
+namespace {
+
+numerics::SplineSpace make_grid(const Scene& scene) {
+  const double width = scene.body.length / scene.scheme.cells;
+  const int left = scene.ends.left == End::free ? scene.scheme.margin_cells : 0;
+  const int right = scene.ends.right == End::free ? scene.scheme.margin_cells : 0;
+  return {scene.scheme.degree, scene.scheme.cells + left + right, -left * width, width};
+}
+
+}  // namespace
+
+State initial_state(const Scene& scene) {
+  State state{.grid = make_grid(scene), .ends = scene.ends, .particles = {}, .basis = {}, .fields = {}, .balance = {}};
+  const auto per_cell = static_cast<std::size_t>(scene.scheme.particles_per_cell);
+  const auto count = static_cast<std::size_t>(scene.scheme.cells) * per_cell;
+  const double volume = scene.body.length / static_cast<double>(count);
+
+  Particles& p = state.particles;
+  p.reference_position.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+    p.reference_position[i] = scene.body.length * (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count));
+  p.position = p.reference_position;
+  p.displacement.assign(count, 0.0);
+  p.velocity.assign(count, 0.0);
+  p.reference_volume.assign(count, volume);
+  p.volume = p.reference_volume;
+  p.mass.assign(count, scene.material.density * volume);
+  p.stretch.assign(count, 1.0);
+  p.stress.assign(count, 0.0);
+  if (const auto& initial = scene.initial_velocity) {
+    for (std::size_t i = 0; i < count; ++i)
+      p.velocity[i] =
+          initial->amplitude * numerics::sin_pi(initial->mode * (p.reference_position[i] / scene.body.length));
+  }
+  for (const double mass : p.mass) state.total_mass += mass;
+  state.right_boundary = scene.body.length;
+
+  const auto stencil = static_cast<std::size_t>(scene.scheme.degree) + 1;
+  state.basis.first.assign(count, 0);
+  state.basis.values.assign(count * stencil, 0.0);
+  state.basis.gradients.assign(count * stencil, 0.0);
+  GridFields& g = state.fields;
+  for (auto* field : {&g.mass, &g.internal_force, &g.force, &g.acceleration, &g.velocity})
+    field->assign(static_cast<std::size_t>(state.grid.functions()), 0.0);
+  return state;
+}
+
+}  // namespace hompm
