@@ -1,0 +1,22 @@
+#include <hompm/effects/effects.hpp>
+#include <hompm/effects/grid_damping.hpp>
+
+namespace hompm::detail {
+namespace {
+
+/// f_i = −β M_i v_i: b = −β v in the continuum.
+void join(const EffectSpec& spec, PlanBuilder& builder) {
+  join_grid_damping(builder, "mass-proportional damping",
+                    [rate = spec.number("rate")](double mass, double, double velocity) { return -rate * mass * velocity; });
+}
+
+}  // namespace
+
+EffectType mass_damping() {
+  return {.name = "mass-damping",
+          .meaning = "body force against the velocity, b = -rate v",
+          .parameters = {{.name = "rate", .unit = "1/s", .meaning = "a mode of small amplitude decays with rate/2", .minimum = 0.0}},
+          .join = join};
+}
+
+}  // namespace hompm::detail
