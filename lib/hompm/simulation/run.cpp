@@ -1,0 +1,108 @@
+#include <hompm/simulation/run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <hompm/error.hpp>
+#include <hompm/output/number.hpp>
+
+namespace hompm {
+namespace {
+
+/// True after `step` steps if one of `count` outputs, evenly spaced over `steps`, is due: output k comes after the whole
+/// number of steps nearest to k steps/count.
+bool is_due(std::int64_t step, std::int64_t steps, std::int64_t count) {
+  const std::int64_t k = (step * count + steps / 2) / steps;
+  return k >= 1 && (2 * k * steps + count) / (2 * count) == step;
+}
+
+/// Tells when the grid velocity has not passed the scene's `rest.speed` for the time a wave takes there and back. The grid's
+/// and not the particles': what a particle's velocity has beyond the grid's moves nothing.
+class RestWatch {
+ public:
+  RestWatch(const Scene& scene, double time_step) : speed_(scene.rest->speed) {
+    const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
+    steps_needed_ = static_cast<std::int64_t>(std::ceil(2.0 * scene.body.length / wave_speed / time_step));
+  }
+  bool at_rest(const std::vector<double>& grid_velocity) {
+    const auto slow = [this](double v) { return std::abs(v) <= speed_; };
+    quiet_steps_ = std::all_of(grid_velocity.begin(), grid_velocity.end(), slow) ? quiet_steps_ + 1 : 0;
+    return quiet_steps_ >= steps_needed_;
+  }
+
+ private:
+  double speed_;
+  std::int64_t steps_needed_;
+  std::int64_t quiet_steps_ = 0;
+};
+
+/// Energy beyond what the start and the loads supplied is made by an instability.
+class EnergyGuard {
+ public:
+  EnergyGuard(const HistoryRow& start, const TimeStepping& stepping)
+      : start_(start.kinetic + start.stored), stepping_(stepping) {}
+
+  void check(const HistoryRow& row, std::int64_t step) {
+    supplied_ = std::max({supplied_, std::abs(row.gravity), std::abs(row.external_work)});
+    const double energy = row.kinetic + row.stored;
+    // Ten times leaves room for every error of a stable scheme; an unstable one passes it within a few dozen steps.
+    if (energy <= 10.0 * (start_ + supplied_)) return;
+    std::string reason = "unstable: energy " + (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
+                         " J/m^2, the start and the loads supplied " + to_text(start_ + supplied_);
+    reason += "; the time step is " + to_text(stepping_.time_step / stepping_.critical_time_step) + " of the critical one";
+    throw InvalidRun(step, row.time, -1, reason);
+  }
+
+ private:
+  double start_;
+  double supplied_ = 0.0;
+  TimeStepping stepping_;
+};
+
+void accumulate(RunResult& result, const HistoryRow& row) {
+  const auto raise = [](double& largest, double value) { largest = std::max(largest, std::abs(value)); };
+  raise(result.largest_residual, row.residual);
+  raise(result.largest_momentum_residual, row.momentum_residual);
+  raise(result.largest_internal_force_sum, row.internal_force_sum);
+  raise(result.largest_energy, row.kinetic + row.stored + std::abs(row.gravity));
+  raise(result.largest_momentum, std::abs(row.momentum) + std::abs(row.impulse));
+}
+
+}  // namespace
+
+RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserver& observer) {
+  Simulation simulation(scene, stepping.time_step);
+  RunResult result;
+  result.start = result.end = simulation.history(0.0);
+  accumulate(result, result.start);
+  if (observer.history) observer.history(result.start);
+  if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
+
+  EnergyGuard guard(result.start, stepping);
+  std::optional<RestWatch> rest;
+  if (scene.rest) rest.emplace(scene, stepping.time_step);
+
+  for (std::int64_t step = 1; step <= stepping.steps && !result.at_rest; ++step) {
+    simulation.step();
+    result.steps = step;
+    result.at_rest = rest && rest->at_rest(simulation.state().fields.velocity);
+    const bool last = step == stepping.steps || result.at_rest;
+    const double time = stepping.time(step, scene.end_time);
+    if (last || is_due(step, stepping.steps, scene.output.history)) {
+      result.end = simulation.history(time);
+      guard.check(result.end, step);
+      accumulate(result, result.end);
+      if (observer.history) observer.history(result.end);
+    }
+    if (last) result.final = simulation.snapshot(time);
+    if (observer.snapshot) {
+      if (last) observer.snapshot(result.final);
+      else if (is_due(step, stepping.steps, scene.output.snapshots)) observer.snapshot(simulation.snapshot(time));
+    }
+    if (observer.progress) observer.progress(step, stepping.steps);
+  }
+  return result;
+}
+
+}  // namespace hompm
