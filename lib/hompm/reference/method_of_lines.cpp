@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+
+#include <hompm/materials/material.hpp>
+#include <hompm/numerics/elementary.hpp>
+#include <hompm/output/number.hpp>
+#include <hompm/reference/lobatto.hpp>
+#include <hompm/reference/method_of_lines.hpp>
+
+namespace hompm {
+namespace {
+
+template <class Law>
+class Lines {
+ public:
+  using State = std::vector<double>;  // displacements of all nodes, then velocities
+
+  Lines(const Law& law, const Scene& scene, const Loads& loads, const Resolution& resolution)
+      : law_(law),
+        density_(scene.material.density),
+        loads_(loads),
+        ends_(scene.ends),
+        rule_(lobatto_rule(resolution.degree)),
+        degree_(static_cast<std::size_t>(resolution.degree)),
+        elements_(static_cast<std::size_t>(resolution.elements)),
+        nodes_(elements_ * degree_ + 1),
+        width_(scene.body.length / static_cast<double>(elements_)),
+        step_factor_(resolution.step_factor),
+        gradient_(rule_.derivative),
+        inverse_mass_(nodes_),
+        state_(2 * nodes_),
+        stress_(degree_ + 1) {
+    for (double& entry : gradient_) entry *= 2.0 / width_;
+    const std::size_t n = degree_ + 1;
+    for (std::size_t e = 0; e < elements_; ++e) {
+      for (std::size_t i = 0; i < n; ++i) {
+        inverse_mass_[e * degree_ + i] += 0.5 * width_ * density_ * rule_.weights[i];
+      }
+    }
+    for (double& entry : inverse_mass_) entry = 1.0 / entry;
+    if (scene.initial_velocity) {
+      const InitialVelocity& initial = *scene.initial_velocity;
+      for (std::size_t e = 0; e < elements_; ++e) {
+        for (std::size_t i = 0; i < n; ++i) {
+          const double position =
+              (static_cast<double>(e) + 0.5 * (1.0 + rule_.nodes[i])) / static_cast<double>(elements_);
+          state_[nodes_ + e * degree_ + i] = initial.amplitude * numerics::sin_pi(initial.mode * position);
+        }
+      }
+    }
+  }
+
+  /// The right-hand side, as odeint calls it.
+  void operator()(const State& state, State& rate, double /*time*/) {
+    const std::size_t n = degree_ + 1;
+    const double* u = state.data();
+    const double* v = u + nodes_;
+    double* force = rate.data() + nodes_;
+    std::copy(v, v + nodes_, rate.data());
+    std::fill(force, force + nodes_, 0.0);
+    double smallest = std::numeric_limits<double>::infinity();
+    bool valid = true;
+    for (std::size_t e = 0; e < elements_; ++e) {
+      const double* at = u + e * degree_;
+      for (std::size_t i = 0; i < n; ++i) {
+        double stretch = 1.0;
+        for (std::size_t j = 0; j < n; ++j) stretch += gradient_[i * n + j] * at[j];
+        smallest = std::min(smallest, stretch);
+        valid = valid && stretch > collapsed;  // and so a number
+        stress_[i] = 0.5 * width_ * rule_.weights[i] * law_.stress(stretch);
+      }
+      double* f = force + e * degree_;
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) f[j] -= gradient_[i * n + j] * stress_[i];
+      }
+    }
+    smallest_stretch_ = smallest;
+    valid_ = valid_ && valid;
+    force[0] -= loads_.left_stress;
+    force[nodes_ - 1] += loads_.right_stress;
+    for (std::size_t i = 0; i < nodes_; ++i) {
+      force[i] = force[i] * inverse_mass_[i] + loads_.acceleration - loads_.damping_rate * v[i];
+    }
+    if (ends_.left == End::fixed) force[0] = rate[0] = 0.0;
+    if (ends_.right == End::fixed) force[nodes_ - 1] = rate[nodes_ - 1] = 0.0;
+  }
+
+  void advance(double time) {
+    if (time < time_) throw Error("the reference solution cannot go back in time");
+    while (time_ < time) {
+      const double steps = std::ceil((time - time_) / stable_step());
+      const double step = (time - time_) / steps;
+      stepper_.do_step(std::ref(*this), state_, time_, step);
+      time_ = steps > 1.0 ? time_ + step : time;
+      if (!valid_) {
+        throw Error("no smooth reference solution exists beyond t = " + to_text(time_) +
+                    " s: the material turns inside out");
+      }
+    }
+  }
+
+  ReferenceFields at(double time, std::span<const double> X) {
+    advance(time);
+    ReferenceFields fields;
+    std::vector<double> stretch(degree_ + 1);
+    for (const double x : X) {
+      const double place = std::clamp(x / width_, 0.0, static_cast<double>(elements_));
+      const std::size_t e = std::min(static_cast<std::size_t>(place), elements_ - 1);
+      const double xi = 2.0 * (place - static_cast<double>(e)) - 1.0;
+      const std::span<const double> u(state_.data() + e * degree_, degree_ + 1);
+      const std::span<const double> v(state_.data() + nodes_ + e * degree_, degree_ + 1);
+      for (std::size_t i = 0; i <= degree_; ++i) {
+        stretch[i] = 1.0;
+        for (std::size_t j = 0; j <= degree_; ++j) stretch[i] += gradient_[i * (degree_ + 1) + j] * u[j];
+      }
+      fields.displacement.push_back(rule_.interpolate(u, xi));
+      fields.velocity.push_back(rule_.interpolate(v, xi));
+      fields.stress.push_back(law_.stress(rule_.interpolate(stretch, xi)));
+    }
+    return fields;
+  }
+
+ private:
+  // Below this stretch the material counts as inside out, lest the stable step shrink to nothing.
+  static constexpr double collapsed = 1e-4;
+
+  // Every law is stiffest where it is most compressed.
+  [[nodiscard]] double stable_step() const {
+    const double speed = std::sqrt(law_.tangent(smallest_stretch_) / density_);
+    return step_factor_ * 0.5 * width_ * (rule_.nodes[1] - rule_.nodes[0]) / speed;
+  }
+
+  Law law_;
+  double density_;
+  Loads loads_;
+  Ends ends_;
+  LobattoRule rule_;
+  std::size_t degree_;
+  std::size_t elements_;
+  std::size_t nodes_;
+  double width_;
+  double step_factor_;
+  std::vector<double> gradient_;  // ∂/∂X within an element, row by row
+  std::vector<double> inverse_mass_;
+  State state_;
+  std::vector<double> stress_;
+  double time_ = 0.0;
+  double smallest_stretch_ = 1.0;
+  bool valid_ = true;
+  boost::numeric::odeint::runge_kutta4<State> stepper_;
+};
+
+}  // namespace
+
+Resolution suitable_resolution(const Scene& scene, const Loads& loads) {
+  const bool smooth =
+      scene.ends.left == End::fixed && scene.ends.right == End::fixed && loads.acceleration == 0.0;
+  const int mode = scene.initial_velocity ? std::max(scene.initial_velocity->mode, 1) : 1;
+  return smooth ? Resolution{8 + 8 * mode, 12, 0.5} : Resolution{std::max(96, 8 * mode), 4, 1.0};
+}
+
+FieldsAt method_of_lines(const Scene& scene, const Loads& loads, const Resolution& resolution) {
+  return std::visit(
+      [&](const auto& law) -> FieldsAt {
+        auto lines = std::make_shared<Lines<std::decay_t<decltype(law)>>>(law, scene, loads, resolution);
+        return [lines](double time, std::span<const double> X) { return lines->at(time, X); };
+      },
+      make_material(scene.material));
+}
+
+}  // namespace hompm

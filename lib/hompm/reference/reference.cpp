@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <hompm/reference/characteristics.hpp>
+#include <hompm/reference/closed_forms.hpp>
+#include <hompm/reference/loads.hpp>
+#include <hompm/reference/method_of_lines.hpp>
+#include <hompm/reference/reference.hpp>
+#include <hompm/reference/static_equilibrium.hpp>
+
+namespace hompm {
+namespace {
+
+Reference exact(std::string description, FieldsAt at) {
+  return {std::move(description), std::move(at), [] { return 0.0; }};
+}
+
+/// Lets a coarser solution run along, whose distance is the estimate of the error.
+Reference estimated(std::string description, FieldsAt fine, FieldsAt coarse) {
+  const auto estimate = std::make_shared<double>(0.0);
+  const auto at = [fine = std::move(fine), coarse = std::move(coarse), estimate](double time,
+                                                                                 std::span<const double> X) {
+    ReferenceFields fields = fine(time, X);
+    const std::vector<double> other = coarse(time, X).displacement;
+    double difference = 0.0;
+    double norm = 0.0;
+    for (std::size_t i = 0; i < other.size(); ++i) {
+      const double u = fields.displacement[i];
+      difference += (other[i] - u) * (other[i] - u);
+      norm += u * u;
+    }
+    *estimate = norm > 0.0 ? std::sqrt(difference / norm) : 0.0;
+    return fields;
+  };
+  return {std::move(description), at, [estimate] { return *estimate; }};
+}
+
+/// A scene seen from the other side: X becomes L − X.
+Loads mirrored(const Loads& loads) {
+  Loads other = loads;
+  other.acceleration = -loads.acceleration;
+  std::swap(other.left_stress, other.right_stress);
+  return other;
+}
+
+FieldsAt mirrored(const FieldsAt& at, double length) {
+  return [at, length](double time, std::span<const double> X) {
+    std::vector<double> positions;
+    for (std::size_t i = X.size(); i-- > 0;) positions.push_back(length - X[i]);
+    ReferenceFields fields = at(time, positions);
+    for (double& u : fields.displacement) u = -u;
+    for (double& v : fields.velocity) v = -v;
+    std::ranges::reverse(fields.displacement);
+    std::ranges::reverse(fields.velocity);
+    std::ranges::reverse(fields.stress);
+    return fields;
+  };
+}
+
+/// Solutions of a body fixed on the left and free on the right, other than by the method of lines.
+std::optional<Reference> column_reference(const Scene& scene, const Loads& loads) {
+  if (scene.rest) {
+    const auto at = [scene, loads](double, std::span<const double> X) {
+      return static_equilibrium(scene, loads, X);
+    };
+    return exact("static equilibrium, valid once at rest (quadrature of the inverted law)", at);
+  }
+  const bool only_gravity =
+      loads.acceleration != 0.0 && loads.damping_rate == 0.0 && loads.right_stress == 0.0;
+  if (!only_gravity || loads.local_damping || scene.initial_velocity) return std::nullopt;
+  const double speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
+  if (scene.material.law == "linear") {
+    const LinearBody body{scene.body.length, scene.material.density, speed};
+    const auto at = [body, b = loads.acceleration](double time, std::span<const double> X) {
+      return loaded_column(body, b, time, X);
+    };
+    return exact("column of small strains, d'Alembert's solution (Tielen et al. 2017)", at);
+  }
+  if (scene.material.law == "rate") {
+    const GasColumn column{scene.body.length, scene.material.density, speed, loads.acceleration};
+    return estimated("column of large strains, method of characteristics (extrapolated net, 8th order)",
+                     gas_column(column, 32), gas_column(column, 16));
+  }
+  return std::nullopt;
+}
+
+std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads) {
+  const bool free = loads.acceleration == 0.0 && loads.damping_rate == 0.0;
+  if (scene.material.law != "linear" || !free || !scene.initial_velocity) return std::nullopt;
+  const LinearBody body{scene.body.length, scene.material.density,
+                        std::sqrt(scene.material.youngs_modulus / scene.material.density)};
+  const auto at = [body, initial = *scene.initial_velocity](double time, std::span<const double> X) {
+    return vibrating_bar(body, initial.amplitude, initial.mode, time, X);
+  };
+  return exact("vibrating bar of small strains, standing wave (Tielen et al. 2017)", at);
+}
+
+}  // namespace
+
+std::optional<Reference> make_reference(const Scene& scene) {
+  const std::optional<Loads> loads = loads_of(scene);
+  if (!loads) return std::nullopt;
+  if (scene.kinematics == Kinematics::infinitesimal && scene.material.law != "linear") return std::nullopt;
+
+  const bool left_fixed = scene.ends.left == End::fixed;
+  const bool right_fixed = scene.ends.right == End::fixed;
+  std::optional<Reference> special;
+  if (left_fixed && !right_fixed) special = column_reference(scene, *loads);
+  if (!left_fixed && right_fixed) {
+    special = column_reference(scene, mirrored(*loads));
+    if (special) special->at = mirrored(special->at, scene.body.length);
+  }
+  if (left_fixed && right_fixed && !scene.rest && !loads->local_damping)
+    special = vibration_reference(scene, *loads);
+  if (special) return special;
+  if (scene.rest || loads->local_damping) return std::nullopt;
+
+  const Resolution fine = suitable_resolution(scene, *loads);
+  const Resolution coarse{fine.elements / 2, fine.degree, fine.step_factor};
+  return estimated("method of lines (Legendre spectral elements, Runge-Kutta)",
+                   method_of_lines(scene, *loads, fine), method_of_lines(scene, *loads, coarse));
+}
+
+}  // namespace hompm

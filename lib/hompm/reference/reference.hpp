@@ -1,0 +1,38 @@
+// The solution a run is judged by: closed form where there is one, else the method of lines.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <hompm/scene/scene.hpp>
+
+namespace hompm {
+
+/// Exact or reference fields at given material points; one entry per point.
+struct ReferenceFields {
+  std::vector<double> displacement;  ///< m
+  std::vector<double> velocity;      ///< m/s
+  std::vector<double> stress;        ///< Pa
+};
+
+/// Fields at `time` (s) and reference positions `X` (m, ascending).
+using FieldsAt = std::function<ReferenceFields(double time, std::span<const double> X)>;
+
+struct Reference {
+  std::string description;  ///< one line: which solution, from which source
+  /// Times must not decrease from call to call. Throws `Error` where they do, and where no smooth solution
+  /// exists.
+  FieldsAt at;
+  /// Own error of the displacement, relative L2, at the last call of `at`: the difference to a solution with
+  /// half the resolution, which is an upper estimate. 0 for a closed form, and before the first call.
+  std::function<double()> estimated_error;
+};
+
+/// The reference solution of a scene, or nothing where none is known (local damping before rest, say).
+/// The same scene gives the same bits on every machine.
+std::optional<Reference> make_reference(const Scene& scene);
+
+}  // namespace hompm

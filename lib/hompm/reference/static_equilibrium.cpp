@@ -1,0 +1,56 @@
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <hompm/error.hpp>
+#include <hompm/materials/material.hpp>
+#include <hompm/numerics/gauss_legendre.hpp>
+#include <hompm/output/number.hpp>
+#include <hompm/reference/static_equilibrium.hpp>
+
+namespace hompm {
+namespace {
+
+template <class Law>
+double stretch(const Law& law, double stress) {
+  const double value = law.stretch(stress);
+  if (!(value > 0.0 && value <= std::numeric_limits<double>::max())) {
+    throw Error("no equilibrium exists: the law cannot carry the stress " + to_text(stress) + " Pa");
+  }
+  return value;
+}
+
+}  // namespace
+
+ReferenceFields static_equilibrium(const Scene& scene, const Loads& loads, std::span<const double> X) {
+  static const numerics::GaussRule rule = numerics::gauss_legendre(10);
+  const double length = scene.body.length;
+  const double weight = scene.material.density * loads.acceleration;
+  const double longest_panel = length / 64.0;
+  const auto stress = [&](double x) { return loads.right_stress + weight * (length - x); };
+
+  ReferenceFields fields;
+  const auto integrate = [&](const auto& law) {
+    double displacement = 0.0;
+    double from = 0.0;
+    for (const double x : X) {
+      const double panels = std::ceil((x - from) / longest_panel);
+      for (double panel = 0.0; panel < panels; panel += 1.0) {
+        const double width = (x - from) / panels;
+        double mean = 0.0;
+        for (std::size_t g = 0; g < rule.points.size(); ++g) {
+          mean += rule.weights[g] * (stretch(law, stress(from + (panel + rule.points[g]) * width)) - 1.0);
+        }
+        displacement += width * mean;
+      }
+      from = x;
+      fields.displacement.push_back(displacement);
+      fields.velocity.push_back(0.0);
+      fields.stress.push_back(stress(x));
+    }
+  };
+  std::visit(integrate, make_material(scene.material));
+  return fields;
+}
+
+}  // namespace hompm
