@@ -1,0 +1,34 @@
+#include <hompm/output/csv.hpp>
+
+#include <hompm/output/number.hpp>
+
+namespace hompm::detail {
+
+void write_header(TextFile& file, std::span<const ParticleColumn> columns) {
+  file << "time,particle";
+  for (const auto& column : columns) file << "," << column.name;
+  file << "\n";
+}
+
+void write_rows(TextFile& file, std::span<const ParticleColumn> columns, const Snapshot& snapshot) {
+  const std::string time = to_text(snapshot.time);
+  for (std::size_t particle = 0; particle < snapshot.size(); ++particle) {
+    file << time << "," << particle;
+    for (const auto& column : columns) file << "," << (snapshot.*column.values)[particle];
+    file << "\n";
+  }
+}
+
+void write_history_header(TextFile& file) {
+  file << "time";
+  for (const auto& column : history_columns) file << "," << column.name;
+  file << "\n";
+}
+
+void write_history_row(TextFile& file, const HistoryRow& row) {
+  file << row.time;
+  for (const auto& column : history_columns) file << "," << row.*column.value;
+  file << "\n";
+}
+
+}  // namespace hompm::detail

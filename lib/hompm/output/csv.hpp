@@ -1,0 +1,22 @@
+// Comma-separated tables: a header, then one row per particle and time.
+#pragma once
+
+#include <span>
+
+#include <hompm/output/columns.hpp>
+#include <hompm/output/text_file.hpp>
+
+namespace hompm::detail {
+
+/// `time,particle` and the names of `columns`. Throws `FileError`.
+void write_header(TextFile& file, std::span<const ParticleColumn> columns);
+/// One row per particle of `snapshot`, numbered from 0. Throws `FileError`, and `Error` for a value that is
+/// not finite.
+void write_rows(TextFile& file, std::span<const ParticleColumn> columns, const Snapshot& snapshot);
+
+/// `time` and the names of the balances. Throws `FileError`.
+void write_history_header(TextFile& file);
+/// One row. Throws `FileError`, and `Error` for a value that is not finite.
+void write_history_row(TextFile& file, const HistoryRow& row);
+
+}  // namespace hompm::detail

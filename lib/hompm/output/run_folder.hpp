@@ -1,0 +1,55 @@
+// The folder a run leaves behind. Files appear whole or not at all: everything is written to a staging folder
+// inside the output folder and renamed into place when the run has ended well.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <hompm/simulation/records.hpp>
+
+namespace hompm {
+
+/// Writes particles.csv, stress.csv, history.csv, whole files by name and, where asked for,
+/// vtk/snapshot_*.vtu with run.pvd. A write past a file size limit is a `FileError` only where the process
+/// ignores SIGXFSZ.
+class RunFolder {
+ public:
+  /// Creates `folder` (and its parents) and a staging folder inside it. Throws `FileError` naming the path
+  /// and the reason when that is impossible. With `vtk`, snapshots are also written as vtk/*.vtu with
+  /// run.pvd.
+  RunFolder(std::filesystem::path folder, bool vtk);
+  /// Removes what `publish` did not move into place, and the folders the constructor created if they are
+  /// empty.
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  /// Appends to particles.csv and stress.csv and writes one .vtu. Throws `FileError` when the disk is full,
+  /// and `Error` naming field and particle when a value is not finite.
+  void write(const Snapshot& snapshot);
+  /// Appends to history.csv. Throws as above.
+  void write(const HistoryRow& row);
+  /// Writes a whole file, for scene.toml, run.json, timing.json; `name` has no folder in it. Throws
+  /// `FileError`.
+  void write(const std::string& name, const std::string& text);
+
+  /// Ends a run that stopped being valid: moves invalid/last_valid.csv (columns of particles.csv and
+  /// stress.csv) and invalid/reason.txt into place, nothing else. Results of an earlier run stay as they are;
+  /// `publish` is refused from now on. Throws `FileError`, and `Error` when `last` is not finite.
+  void keep_invalid(const Snapshot& last, const std::string& reason);
+
+  /// Removes what an earlier run left under names of its own, run.json first, then renames all files into
+  /// place, run.json last: a folder with a run.json holds one complete run. Files of other names are not
+  /// touched. Throws `FileError`; `Error` when an earlier call failed, for what is there is then not a whole
+  /// run.
+  void publish();
+
+  [[nodiscard]] const std::filesystem::path& path() const;
+
+ private:
+  class Contents;
+  std::unique_ptr<Contents> contents_;
+};
+
+}  // namespace hompm

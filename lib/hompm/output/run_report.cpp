@@ -1,0 +1,152 @@
+#include <hompm/output/run_report.hpp>
+
+#include <array>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include <hompm/build_info.hpp>
+#include <hompm/error.hpp>
+#include <hompm/output/number.hpp>
+
+namespace hompm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const ErrorNorms& norms) {
+  return {{"relative_l2", norms.relative_l2}, {"rms", norms.rms}, {"max", norms.max}};
+}
+
+/// For people: three or four digits.
+std::string brief(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.resize(width, ' ');
+  return text;
+}
+
+std::string row(const std::string& name, const ErrorNorms& norms, const std::string& unit) {
+  return "    " + padded(name, 14) + padded(brief(norms.relative_l2), 14) + padded(brief(norms.rms) + " " + unit, 18) +
+         brief(norms.max) + " " + unit + "\n";
+}
+
+std::string share(double part, double whole) { return whole > 0.0 ? brief(part / whole) : std::string("0"); }
+
+}  // namespace
+
+std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason) {
+  const std::optional<Reference> reference = make_reference(scene);
+  if (!reference) {
+    reason = "no reference solution is known for this scene";
+    return std::nullopt;
+  }
+  if (scene.rest && !result.at_rest) {
+    reason = "the body had not come to rest by the end time; the reference is the state of rest";
+    return std::nullopt;
+  }
+  try {
+    const ReferenceFields exact = reference->at(result.final.time, result.final.reference_position);
+    return ErrorReport{.reference = reference->description,
+                       .reference_error = reference->estimated_error(),
+                       .displacement = error_norms(result.final.displacement, exact.displacement),
+                       .velocity = error_norms(result.final.velocity, exact.velocity),
+                       .stress = error_norms(result.final.stress, exact.stress)};
+  } catch (const Error& error) {
+    reason = error.what();
+    return std::nullopt;
+  }
+}
+
+std::string run_json(const RunReport& report) {
+  const Scene& scene = report.scene;
+  const RunResult& result = report.result;
+  const BuildInfo& build = build_info();
+  Json json{{"case", scene.case_name},
+            {"variant", scene.variant},
+            {"title", scene.title},
+            {"scheme", scene.scheme.name},
+            {"degree", scene.scheme.degree},
+            {"cells", scene.scheme.cells},
+            {"particles_per_cell", scene.scheme.particles_per_cell},
+            {"particles", result.final.size()},
+            {"time_step", report.stepping.time_step},
+            {"critical_time_step", report.stepping.critical_time_step},
+            {"steps", result.steps},
+            {"end_time", result.end.time},
+            {"at_rest", result.at_rest}};
+  Json& errors = json["errors"] = Json::object();
+  if (report.errors) {
+    errors["reference"] = report.errors->reference;
+    errors["reference_error"] = report.errors->reference_error;
+    errors["displacement"] = json_of(report.errors->displacement);
+    errors["velocity"] = json_of(report.errors->velocity);
+    errors["stress"] = json_of(report.errors->stress);
+  } else {
+    errors["reference"] = nullptr;
+    errors["reason"] = report.no_errors_because;
+  }
+  const HistoryRow& end = result.end;
+  json["energy"] = {{"kinetic", end.kinetic},           {"stored", end.stored},
+                    {"gravity", end.gravity},           {"dissipated", end.dissipated},
+                    {"external_work", end.external_work}, {"residual", end.residual},
+                    {"largest_residual", result.largest_residual}};
+  json["momentum"] = {{"start", result.start.momentum},
+                      {"end", end.momentum},
+                      {"impulse", end.impulse},
+                      {"residual", end.momentum_residual},
+                      {"largest_residual", result.largest_momentum_residual}};
+  json["mass"] = {{"start", result.start.mass}, {"end", end.mass}};
+  json["largest_internal_force_sum"] = result.largest_internal_force_sum;
+  json["build"] = {{"version", build.version},       {"commit", build.commit},   {"compiler", build.compiler},
+                   {"flags", build.flags},           {"type", build.build_type}, {"architecture", build.architecture},
+                   {"eigen", build.eigen},           {"boost", build.boost}};
+  return json.dump(2) + "\n";
+}
+
+std::string timing_json(const RunResult& result, double seconds) {
+  const double particle_steps = static_cast<double>(result.steps) * static_cast<double>(result.final.size());
+  return Json{{"seconds", seconds}, {"nanoseconds_per_particle_and_step", seconds * 1e9 / particle_steps}}.dump(2) + "\n";
+}
+
+std::string run_summary(const RunReport& report) {
+  const Scene& scene = report.scene;
+  const RunResult& result = report.result;
+  const TimeStepping& stepping = report.stepping;
+  const std::string name = scene.variant.empty() ? scene.case_name : scene.case_name + " " + scene.variant;
+
+  std::string text = name + ", " + scene.scheme.name + " of degree " + std::to_string(scene.scheme.degree);
+  if (!scene.title.empty()) text += ": " + scene.title;
+  text += "\n  grid      " + std::to_string(scene.scheme.cells) + " cells x " +
+          std::to_string(scene.scheme.particles_per_cell) + " = " + std::to_string(result.final.size()) +
+          " particles\n";
+  text += "  time      " + std::to_string(result.steps) + " steps of " + brief(stepping.time_step) + " s to t = " +
+          to_text(result.end.time) + " s; the critical step is " + brief(stepping.critical_time_step) + " s\n";
+  if (scene.rest) text += result.at_rest ? "  rest      reached\n" : "  rest      not reached by the end time\n";
+  if (report.errors) {
+    const ErrorReport& errors = *report.errors;
+    text += "  errors    against " + errors.reference;
+    if (errors.reference_error > 0.0) text += " (its own error: " + brief(errors.reference_error) + ")";
+    text += "\n    " + padded("", 14) + padded("relative L2", 14) + padded("rms", 18) + "max\n";
+    text += row("displacement", errors.displacement, "m") + row("velocity", errors.velocity, "m/s") +
+            row("stress", errors.stress, "Pa");
+  } else {
+    text += "  errors    none: " + report.no_errors_because + "\n";
+  }
+  const HistoryRow& end = result.end;
+  text += "  energy    kinetic " + brief(end.kinetic) + ", stored " + brief(end.stored) + ", gravity " +
+          brief(end.gravity) + ", dissipated " + brief(end.dissipated) + ", external work " + brief(end.external_work) +
+          " J/m^2\n            largest residual " + brief(result.largest_residual) + " J/m^2, " +
+          share(result.largest_residual, result.largest_energy) + " of the energy at work\n";
+  text += "  momentum  largest residual " + brief(result.largest_momentum_residual) + " kg/(m s), " +
+          share(result.largest_momentum_residual, result.largest_momentum) + " of what was exchanged; sum of internal forces " +
+          brief(result.largest_internal_force_sum) + " of their magnitudes\n";
+  text += "  mass      " + brief(end.mass) + " kg/m^2, changed by " + brief(end.mass - result.start.mass) + "\n";
+  return text;
+}
+
+}  // namespace hompm

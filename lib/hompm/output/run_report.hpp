@@ -1,0 +1,43 @@
+// What a run is summed up to: run.json, and the summary a person reads.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <hompm/reference/reference.hpp>
+#include <hompm/scene/scene.hpp>
+#include <hompm/simulation/run.hpp>
+#include <hompm/simulation/time_step.hpp>
+#include <hompm/verify/error_norms.hpp>
+
+namespace hompm {
+
+/// Errors of the last snapshot against the reference solution.
+struct ErrorReport {
+  std::string reference;  ///< which solution
+  double reference_error = 0.0;  ///< its own, relative L2 of the displacement
+  ErrorNorms displacement, velocity, stress;
+};
+
+/// The errors of `snapshot` against the scene's reference solution; nothing where the scene has none. `reason` then says
+/// why. Throws nothing for a reference that ceases to exist (steepened to a shock): that is a reason, too.
+std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason);
+
+struct RunReport {
+  const Scene& scene;
+  const TimeStepping& stepping;
+  const RunResult& result;
+  const std::optional<ErrorReport>& errors;
+  const std::string& no_errors_because;
+};
+
+/// run.json as text, one key a line.
+std::string run_json(const RunReport& report);
+
+/// timing.json as text: what the run took on the wall clock, the one output that differs from run to run.
+std::string timing_json(const RunResult& result, double seconds);
+
+/// A dozen lines for a terminal.
+std::string run_summary(const RunReport& report);
+
+}  // namespace hompm

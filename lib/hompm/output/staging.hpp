@@ -1,0 +1,53 @@
+// Files that do not exist for anybody else until they are moved into place.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <hompm/output/text_file.hpp>
+
+namespace hompm::detail {
+
+/// Creates missing folders and removes them again, as far as they are still empty, when it goes.
+class CreatedFolders {
+ public:
+  /// Creates `folder` and what is missing above it. Throws `FileError`, leaving nothing behind.
+  explicit CreatedFolders(const std::filesystem::path& folder);
+  ~CreatedFolders();
+  CreatedFolders(const CreatedFolders&) = delete;
+  CreatedFolders& operator=(const CreatedFolders&) = delete;
+
+ private:
+  void remove_empty();
+  std::vector<std::filesystem::path> created_;
+};
+
+/// A folder and, inside it, the hidden one in which files wait to be moved; the latter goes with the object.
+class StagingFolder {
+ public:
+  /// Throws `FileError` when one of the two folders cannot be created.
+  explicit StagingFolder(std::filesystem::path folder);
+  ~StagingFolder();
+  StagingFolder(const StagingFolder&) = delete;
+  StagingFolder& operator=(const StagingFolder&) = delete;
+
+  /// A new file waiting under `name`, which is relative to the folder and may have one folder in front.
+  /// Throws `FileError`.
+  TextFile create(const std::string& name);
+  /// Moves the (closed) file `name` to its place, over an older one. Throws `FileError`.
+  void move_into_place(const std::string& name);
+
+  /// Names of the files still waiting.
+  [[nodiscard]] const std::set<std::string>& names() const { return names_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  CreatedFolders created_;
+  std::filesystem::path staging_;
+  std::set<std::string> names_;
+};
+
+}  // namespace hompm::detail
