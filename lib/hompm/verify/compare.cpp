@@ -1,0 +1,177 @@
+#include <hompm/verify/compare.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <limits>
+
+#include <hompm/error.hpp>
+#include <hompm/output/columns.hpp>
+#include <hompm/output/text_file.hpp>
+#include <hompm/verify/csv_table.hpp>
+#include <hompm/verify/excerpt.hpp>
+#include <hompm/verify/field_judge.hpp>
+#include <hompm/verify/table_comparison.hpp>
+
+namespace hompm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One results file and its fields.
+struct Table {
+  std::string name;
+  bool has_particles;
+  std::vector<std::string> fields;
+};
+
+template <class Columns>
+std::vector<std::string> names(const Columns& columns) {
+  std::vector<std::string> all;
+  for (const auto& column : columns) all.emplace_back(column.name);
+  return all;
+}
+
+const std::array<Table, 3>& tables() {
+  static const std::array<Table, 3> all{Table{"particles.csv", true, names(detail::particle_columns)},
+                                        Table{"stress.csv", true, names(detail::stress_columns)},
+                                        Table{"history.csv", false, names(detail::history_columns)}};
+  return all;
+}
+
+/// Throws `FileError` when the answer cannot be had.
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  const bool found = fs::exists(path, error);
+  if (error) throw detail::file_error("read", path, error.value());
+  return found;
+}
+
+void require_folder(const fs::path& path) {
+  if (!is_there(path)) throw detail::file_error("read", path, ENOENT);
+  if (!fs::is_directory(path)) throw detail::file_error("read", path, ENOTDIR);
+}
+
+std::vector<Tolerance> tolerances_of(const Table& table, const std::map<std::string, Tolerance>& tolerances) {
+  std::vector<Tolerance> all;
+  for (const auto& field : table.fields) {
+    const auto found = tolerances.find(field);
+    all.push_back(found == tolerances.end() ? Tolerance{} : found->second);
+  }
+  return all;
+}
+
+std::string shown(bool has_line, std::string_view line) {
+  return has_line ? detail::excerpt(line) : "the end of the file";
+}
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::identical:
+      return "identical";
+    case Verdict::equivalent:
+      return "equivalent";
+    case Verdict::different:
+      break;
+  }
+  return "different";
+}
+
+std::uint64_t ulp_distance(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<std::uint64_t>::max();
+  const auto x = detail::ordered_bits(a);
+  const auto y = detail::ordered_bits(b);
+  return x < y ? y - x : x - y;
+}
+
+const std::vector<std::string>& compared_fields() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> fields;
+    for (const auto& table : tables()) {
+      for (const auto& field : table.fields) {
+        if (std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
+      }
+    }
+    return fields;
+  }();
+  return all;
+}
+
+Comparison compare_folders(const fs::path& a, const fs::path& b,
+                           const std::map<std::string, Tolerance>& tolerances) {
+  const auto& known = compared_fields();
+  for (const auto& [field, tolerance] : tolerances) {
+    if (std::find(known.begin(), known.end(), field) == known.end())
+      throw Error("no field is called " + field);
+  }
+  require_folder(a);
+  require_folder(b);
+
+  Comparison result;
+  detail::MessageLog faults;
+  detail::MessageLog notes;
+  std::optional<Difference> first;  // of all, within a tolerance or not
+  bool any_file = false;
+  for (const auto& table : tables()) {
+    const fs::path file_a = a / table.name;
+    const fs::path file_b = b / table.name;
+    const bool in_a = is_there(file_a);
+    const bool in_b = is_there(file_b);
+    any_file = any_file || in_a || in_b;
+    if (in_a != in_b) {
+      const auto& [there, missing] = in_a ? std::pair(file_a, file_b) : std::pair(file_b, file_a);
+      faults.add(missing.string(), "missing files", 0, "missing, but there is " + there.string());
+    }
+    if (!in_a || !in_b) continue;
+    detail::CsvTable table_a(file_a, table.fields, table.has_particles, faults, notes);
+    detail::CsvTable table_b(file_b, table.fields, table.has_particles, faults, notes);
+    if (!table_a.has_keys() || !table_b.has_keys()) continue;
+    detail::FieldJudge judge(table.name, table.fields, tolerances_of(table, tolerances));
+    compare_tables(table_a, table_b, table.fields.size(), judge);
+    result.fields.insert(result.fields.end(), judge.fields().begin(), judge.fields().end());
+    if (!first) first = judge.first();
+    if (!result.first) result.first = judge.first_beyond();
+  }
+  if (!any_file) {
+    throw FileError("neither " + a.string() + " nor " + b.string() +
+                    " holds particles.csv, stress.csv or history.csv");
+  }
+
+  if (!result.first) result.first = first;
+  result.messages = faults.messages();
+  result.notes = notes.messages();
+  const auto any = [&](auto count) {
+    return std::any_of(result.fields.begin(), result.fields.end(),
+                       [&](const auto& f) { return f.*count > 0; });
+  };
+  if (!result.messages.empty() || any(&FieldComparison::beyond)) {
+    result.verdict = Verdict::different;
+  } else if (any(&FieldComparison::differing)) {
+    result.verdict = Verdict::equivalent;
+  }
+  return result;
+}
+
+void compare_scenes(const fs::path& a, const fs::path& b, Comparison& comparison) {
+  const char* const name = "scene.toml";
+  if (!is_there(a / name) || !is_there(b / name)) return;
+  detail::LineReader reader_a(a / name);
+  detail::LineReader reader_b(b / name);
+  while (true) {
+    const bool more_a = reader_a.next();
+    const bool more_b = reader_b.next();
+    if (!more_a && !more_b) return;
+    if (more_a && more_b && reader_a.line() == reader_b.line()) continue;
+    const auto line = more_a ? reader_a.number() : reader_b.number();
+    comparison.messages.push_back("scene.toml differs at line " + std::to_string(line) + ": " +
+                                  shown(more_a, reader_a.line()) + " against " +
+                                  shown(more_b, reader_b.line()));
+    comparison.verdict = Verdict::different;
+    return;
+  }
+}
+
+}  // namespace hompm
