@@ -1,0 +1,101 @@
+#include "common.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <system_error>
+
+#include <hompm/build_info.hpp>
+#include <hompm/build_info.hpp>
+#include <hompm/error.hpp>
+#include <hompm/scene/reader.hpp>
+
+namespace hompm::cli {
+namespace {
+
+namespace po = boost::program_options;
+
+/// Reads all of `text`; false when that is not possible.
+template <class Number>
+bool read_whole(const std::string& text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && stop == end;
+}
+
+}  // namespace
+
+CommandLine read_command_line(int argc, const char* const* argv, const po::options_description& options) {
+  // The name of the option behind the arguments holds a blank, so that nobody can type it by accident.
+  const char* const arguments = "other arguments";
+  po::options_description all;
+  all.add(options).add_options()(arguments, po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add(arguments, -1);
+  try {
+    CommandLine line;
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
+              line.options);
+    po::notify(line.options);
+    if (line.options.count(arguments) > 0)
+      line.arguments = line.options[arguments].as<std::vector<std::string>>();
+    return line;
+  } catch (const po::unknown_option& error) {
+    std::vector<std::string> known;
+    for (const auto& option : options.options()) known.push_back("--" + option->long_name());
+    throw UsageError("unknown option " + error.get_option_name() +
+                     suggestion(error.get_option_name(), known));
+  } catch (const po::error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+double parse_number(const std::string& text, const std::string& where) {
+  double number = 0.0;
+  if (read_whole(text, number) && std::isfinite(number)) return number;
+  throw UsageError(where + ": `" + text + "` is not a finite number");
+}
+
+std::uint64_t parse_count(const std::string& text, const std::string& where) {
+  std::uint64_t number = 0;
+  if (read_whole(text, number)) return number;
+  throw UsageError(where + ": `" + text + "` is not a whole number of at least 0");
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
+std::string version_text(const std::string& tool) { return tool + " " + build_info().version; }
+
+int run_tool(const std::string& tool, const std::function<int()>& body) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const auto fail = [&](const std::string& message, int code) {
+    std::cerr << tool << ": " << message << '\n';
+    return code;
+  };
+  try {
+    const int code = body();
+    errno = 0;
+    if (!std::cout.flush()) {
+      return fail("cannot write standard output: " + std::generic_category().message(errno), bad_file);
+    }
+    return code;
+  } catch (const UsageError& error) {
+    return fail(std::string(error.what()) + " (see " + tool + " --help)", usage);
+  } catch (const SceneError& error) {
+    return fail(error.what(), usage);
+  } catch (const InvalidRun& error) {
+    return fail(error.what(), invalid_run);
+  } catch (const FileError& error) {
+    return fail(error.what(), bad_file);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal error: ") + error.what(), internal);
+  }
+}
+
+}  // namespace hompm::cli

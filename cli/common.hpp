@@ -1,0 +1,58 @@
+// What the command-line tools share: exit codes, options, numbers, the frame around main.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+namespace hompm::cli {
+
+/// What a tool hands back to the shell.
+enum ExitCode {
+  success = 0,      ///< done; for a comparison: identical or equivalent
+  internal = 1,     ///< a fault of ours
+  usage = 2,        ///< a bad command line or scene: nothing was computed or written
+  different = 3,    ///< a comparison found a difference
+  invalid_run = 4,  ///< the run stopped being valid
+  bad_file = 5,     ///< something could not be read or written
+};
+
+/// A command line that makes no sense; `what()` says why in one line.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A command line, read.
+struct CommandLine {
+  boost::program_options::variables_map options;
+  std::vector<std::string> arguments;  ///< what is not an option, in order
+};
+
+/// Reads the command line. Options must be written out: an abbreviation is an error like any unknown name,
+/// and the nearest known one is suggested. Throws `UsageError`.
+CommandLine read_command_line(int argc, const char* const* argv,
+                              const boost::program_options::options_description& options);
+
+/// The whole of `text` as a finite number. Throws `UsageError`, which begins with `where`, for anything else,
+/// "nan" and trailing characters included.
+double parse_number(const std::string& text, const std::string& where);
+/// The whole of `text` as a number of at least 0, without a sign. Throws `UsageError` as above.
+std::uint64_t parse_count(const std::string& text, const std::string& where);
+
+/// "; did you mean <nearest>?", or nothing when no candidate is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
+
+/// "<tool> <version>".
+std::string version_text(const std::string& tool);
+
+/// Runs the body of a main: turns what it throws into "<tool>: <message>" on standard error and an exit code,
+/// and makes sure that all of standard output was written. A file size limit is an error to report, not a
+/// signal.
+int run_tool(const std::string& tool, const std::function<int()>& body);
+
+}  // namespace hompm::cli

@@ -1,0 +1,86 @@
+#include "listing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <hompm/effects/registry.hpp>
+#include <hompm/materials/material.hpp>
+#include <hompm/output/number.hpp>
+#include <hompm/scene/reader.hpp>
+#include <hompm/scheme/scheme.hpp>
+#include <hompm/simulation/simulation.hpp>
+
+namespace hompm::cli {
+namespace {
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size() + 1, width), ' ');
+  return text;
+}
+
+std::string degrees(const Scheme& scheme) {
+  if (scheme.lowest_degree == scheme.highest_degree) return "degree " + std::to_string(scheme.lowest_degree);
+  return "degree " + std::to_string(scheme.lowest_degree) + " to " + std::to_string(scheme.highest_degree) + ", default " +
+         std::to_string(scheme.default_degree);
+}
+
+std::string effects_left_out(const hompm::Scene& scene) {
+  std::string names;
+  for (const auto& type : hompm::effect_catalogue()) {
+    const auto is_present = [&](const hompm::EffectSpec& spec) { return spec.type == type.name; };
+    if (std::none_of(scene.effects.begin(), scene.effects.end(), is_present)) names += (names.empty() ? "" : ", ") + type.name;
+  }
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
+std::string catalogue_text() {
+  std::string text = "cases (--case, --variant)\n";
+  for (const auto& scene : hompm::builtin_scenes())
+    text += "  " + padded(scene.case_name, 10) + padded(scene.variant, 12) + (scene.is_default ? "default\n" : "\n");
+  text += "\nschemes (--scheme)\n";
+  for (const auto& scheme : hompm::scheme_table())
+    text += "  " + padded(scheme.name, 14) + scheme.summary + "; " + degrees(scheme) + "\n" + padded("", 16) + scheme.source + "\n";
+  text += "\nmaterials (material.law)\n";
+  for (const auto& [name, formula] : hompm::material_laws()) text += "  " + padded(name, 14) + formula + "\n";
+  text += "\neffects ([[effect]] type)\n";
+  for (const auto& type : hompm::effect_catalogue()) {
+    text += "  " + padded(type.name, 16) + type.meaning + "\n";
+    for (const auto& parameter : type.parameters)
+      text += padded("", 18) + padded(parameter.name + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]"), 24) +
+              parameter.meaning + "\n";
+  }
+  return text;
+}
+
+std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& stepping) {
+  using hompm::Phase;
+  const hompm::Simulation simulation(scene, stepping.time_step);
+  const bool moves = scene.kinematics == hompm::Kinematics::finite;
+  const std::array<std::pair<Phase, std::string>, 8> phases{{
+      {Phase::geometry, moves ? "geometry" : "geometry (once: nothing moves)"},
+      {Phase::internal_force, "internal force"},
+      {Phase::external_force, "external force"},
+      {Phase::damping_force, "damping force"},
+      {Phase::acceleration, "acceleration"},
+      {Phase::velocity, "velocity"},
+      {Phase::work, "work"},
+      {Phase::motion, "motion"},
+  }};
+  std::string text = std::to_string(stepping.steps) + " steps of " + hompm::to_text(stepping.time_step) +
+                     " s; critical step " + hompm::to_text(stepping.critical_time_step) + " s\n";
+  int number = 0;
+  for (const auto& [phase, title] : phases) {
+    if (simulation.plan()[phase].empty()) continue;
+    text += title + "\n";
+    for (const auto& stage : simulation.plan()[phase]) {
+      text += "  " + padded(std::to_string(++number) + ".", 4) + padded(stage.name, 46) + "for " + stage.called_by + "\n";
+      if (!stage.arrays.empty()) text += padded("", 8) + "owns, " + stage.arrays + "\n";
+    }
+  }
+  return text + "effects absent: " + effects_left_out(scene) + "\n";
+}
+
+}  // namespace hompm::cli

@@ -1,0 +1,31 @@
+// A progress bar on standard error: only on a terminal, and only for runs longer than a second.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace hompm::cli {
+
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool quiet);
+  /// Erases the bar, so that what is printed next stands alone.
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// To be called after every step; draws at most ten times a second.
+  void update(std::int64_t step, std::int64_t steps);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw(std::int64_t step, std::int64_t steps, double elapsed);
+
+  bool active_;
+  bool drawn_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_ = start_ + std::chrono::seconds(1);
+  std::int64_t next_look_ = 0;
+};
+
+}  // namespace hompm::cli
