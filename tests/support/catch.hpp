@@ -1,0 +1,20 @@
+// One include for Catch2 2.13 and 3, and what the two name differently.
+#pragma once
+
+#include <string>
+
+#if __has_include(<catch2/catch_test_macros.hpp>)
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators_all.hpp>
+#include <catch2/matchers/catch_matchers_all.hpp>
+
+namespace support {
+inline auto contains(const std::string& part) { return Catch::Matchers::ContainsSubstring(part); }
+}  // namespace support
+#else
+#include <catch2/catch.hpp>
+
+namespace support {
+inline auto contains(const std::string& part) { return Catch::Matchers::Contains(part); }
+}  // namespace support
+#endif
