@@ -8,9 +8,8 @@
 #include <system_error>
 
 #include <hompm/build_info.hpp>
-#include <hompm/build_info.hpp>
 #include <hompm/error.hpp>
-#include <hompm/scene/reader.hpp>
+#include <hompm/scene_file/reader.hpp>
 
 namespace hompm::cli {
 namespace {
@@ -37,8 +36,16 @@ CommandLine read_command_line(int argc, const char* const* argv, const po::optio
   try {
     CommandLine line;
     const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
-              line.options);
+    const auto parsed =
+        po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run();
+    for (const auto& option : parsed.options) {
+      const auto& tokens = option.original_tokens;
+      // The parser would take the next option for the missing value of this one.
+      if (tokens.size() == 2 && option.position_key < 0 && tokens[1].starts_with("--")) {
+        throw UsageError("the value of " + tokens[0] + " is missing: " + tokens[1] + " is an option");
+      }
+    }
+    po::store(parsed, line.options);
     po::notify(line.options);
     if (line.options.count(arguments) > 0)
       line.arguments = line.options[arguments].as<std::vector<std::string>>();
@@ -82,7 +89,8 @@ int run_tool(const std::string& tool, const std::function<int()>& body) {
     const int code = body();
     errno = 0;
     if (!std::cout.flush()) {
-      return fail("cannot write standard output: " + std::generic_category().message(errno), bad_file);
+      const int reason = errno != 0 ? errno : EIO;  // an earlier write may have failed, its reason forgotten
+      return fail("cannot write standard output: " + std::generic_category().message(reason), bad_file);
     }
     return code;
   } catch (const UsageError& error) {

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
 
 namespace hompm::cli {
 namespace {
@@ -20,17 +20,19 @@ std::string distance(std::uint64_t ulps) { return std::to_string(ulps) + (ulps =
 
 void print_table(std::ostream& out, const std::vector<FieldComparison>& fields) {
   using Row = std::array<std::string, 9>;
-  std::vector<Row> rows{{"file", "field", "values", "differing", "beyond", "worst |A-B|", "ulps", "time", "particle"}};
+  std::vector<Row> rows{
+      {"file", "field", "values", "differing", "beyond", "worst |A-B|", "ulps", "time", "particle"}};
   for (const auto& f : fields) {
     if (f.differing == 0) continue;
-    rows.push_back({f.file, f.field, std::to_string(f.values), std::to_string(f.differing), std::to_string(f.beyond),
-                    to_text(f.largest_absolute), std::to_string(f.worst.ulps), to_text(f.worst.time),
-                    f.worst.particle < 0 ? "-" : std::to_string(f.worst.particle)});
+    rows.push_back({f.file, f.field, std::to_string(f.values), std::to_string(f.differing),
+                    std::to_string(f.beyond), to_text(f.largest_absolute), std::to_string(f.worst.ulps),
+                    to_text(f.worst.time), f.worst.particle < 0 ? "-" : std::to_string(f.worst.particle)});
   }
   if (rows.size() == 1) return;
   std::array<int, 9> width{};
   for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], static_cast<int>(row[i].size()));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      width[i] = std::max(width[i], static_cast<int>(row[i].size()));
   for (const auto& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       const bool is_name = i < 2;

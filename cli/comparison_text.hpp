@@ -7,8 +7,8 @@
 
 namespace hompm::cli {
 
-/// The verdict on the first line; then where the two differ first, the messages, the worst difference of each field that
-/// differs in columns, and the notes.
+/// The verdict on the first line; then where the two differ first, the messages, the worst difference of each
+/// field that differs in columns, and the notes.
 std::string comparison_text(const Comparison& comparison);
 
 }  // namespace hompm::cli

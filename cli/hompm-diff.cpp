@@ -52,38 +52,49 @@ std::string usage_text() {
   text << "usage: hompm-diff [options] A B\n\n"
           "Compares the results in the folders A and B (the golden one) bit for bit.\n\n"
        << options()
-       << "\nFIELD is a column of particles.csv, stress.csv or history.csv, or `all`, which goes for every "
-          "field\n"
-          "that is not named in another bound of the same kind. A value passes when it meets any of its "
-          "bounds.\n"
-          "Without bounds a single bit makes the folders different.\n\n"
+       << "\n"
+          "FIELD is a column of particles.csv, stress.csv or history.csv, or `all`, which goes for\n"
+          "every field that is not named in another bound of the same kind. A value passes when it\n"
+          "meets any of its bounds. Without bounds a single bit makes the folders different.\n\n"
           "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read.\n";
   return text.str();
 }
 
-/// Reads all FIELD=BOUND of one option into `bound` of the tolerances.
+/// FIELD=BOUND, taken apart.
+struct Bound {
+  std::string where;  ///< the option as it was typed, for messages
+  std::string field;
+  std::string value;
+};
+
+Bound read_bound(const std::string& option, const std::string& word) {
+  const std::string where = "--" + option + " " + word;
+  const auto& fields = hompm::compared_fields();
+  const auto equals = word.find('=');
+  if (equals == word.npos) throw hompm::cli::UsageError(where + ": expected FIELD=BOUND, such as stress=3");
+  const std::string field = word.substr(0, equals);
+  if (field != "all" && std::find(fields.begin(), fields.end(), field) == fields.end()) {
+    throw hompm::cli::UsageError(where + ": no field is called " + field +
+                                 hompm::cli::suggestion(field, fields));
+  }
+  return {where, field, word.substr(equals + 1)};
+}
+
+/// Reads all FIELD=BOUND of one option into `member` of the tolerances.
 template <class Number, class Parse>
 void add_tolerances(const po::variables_map& given, const std::string& option,
-                    Number hompm::Tolerance::*bound, Parse parse,
+                    Number hompm::Tolerance::*member, Parse parse,
                     std::map<std::string, hompm::Tolerance>& tolerances) {
   if (given.count(option) == 0) return;
-  const auto& fields = hompm::compared_fields();
   std::map<std::string, Number> named;
   for (const auto& word : given[option].as<Words>()) {
-    const std::string where = "--" + option + " " + word;
-    const auto equals = word.find('=');
-    if (equals == word.npos) throw hompm::cli::UsageError(where + ": expected FIELD=BOUND, such as stress=3");
-    const std::string field = word.substr(0, equals);
-    if (field != "all" && std::find(fields.begin(), fields.end(), field) == fields.end()) {
-      throw hompm::cli::UsageError(where + ": no field is called " + field +
-                                   hompm::cli::suggestion(field, fields));
-    }
-    named[field] = parse(word.substr(equals + 1), where);
+    const auto bound = read_bound(option, word);
+    named[bound.field] = parse(bound.value, bound.where);
   }
-  for (const auto& field : fields) {
+  for (const auto& field : hompm::compared_fields()) {
     auto found = named.find(field);
     if (found == named.end()) found = named.find("all");
-    if (found != named.end()) tolerances[field].*bound = found->second;
+    if (found != named.end()) tolerances[field].*member = found->second;
   }
 }
 

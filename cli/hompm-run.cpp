@@ -5,9 +5,10 @@
 //                hompm-run --scene my.toml --set material.youngs_modulus=2e5 --output out
 //                hompm-run --check golden/column-large-tielen2017
 //
-// Description:   Reads a scene (built in, or a file), applies what the command line says about it, runs it, writes the
-//                output folder, and prints errors against the reference solution and the balances. With --check the
-//                scene of a golden folder is run and the result compared with it.
+// Description:   Reads a scene (built in, or a file), applies what the command line says about it, runs it,
+// writes the
+//                output folder, and prints errors against the reference solution and the balances. With
+//                --check the scene of a golden folder is run and the result compared with it.
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -20,10 +21,10 @@
 #include <boost/program_options.hpp>
 
 #include <hompm/error.hpp>
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
 #include <hompm/output/run_folder.hpp>
 #include <hompm/output/run_report.hpp>
-#include <hompm/scene/reader.hpp>
+#include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/verify/compare.hpp>
 
@@ -40,38 +41,37 @@ namespace po = boost::program_options;
 
 /// Options that are short for `--set KEY=VALUE`.
 const std::vector<std::pair<std::string, std::string>> shortcuts{
-    {"scheme", "scheme.name"},         {"degree", "scheme.degree"},   {"cells", "scheme.cells"},
-    {"particles-per-cell", "scheme.particles_per_cell"},              {"time-step", "scheme.time_step"},
-    {"courant", "scheme.courant"},     {"step-fraction", "scheme.step_fraction"},
-    {"end-time", "end_time"},          {"snapshots", "output.snapshots"},
+    {"scheme", "scheme.name"},
+    {"degree", "scheme.degree"},
+    {"cells", "scheme.cells"},
+    {"particles-per-cell", "scheme.particles_per_cell"},
+    {"time-step", "scheme.time_step"},
+    {"courant", "scheme.courant"},
+    {"step-fraction", "scheme.step_fraction"},
+    {"end-time", "end_time"},
+    {"snapshots", "output.snapshots"},
 };
 
 po::options_description make_options() {
   po::options_description options("options");
   const auto text = [](const char* name) { return po::value<std::string>()->value_name(name); };
-  options.add_options()
-      ("case", text("NAME"), "built-in case: bar, column")
-      ("scene", text("FILE"), "scene file instead of a case")
-      ("variant", text("NAME"), "variant of the case")
-      ("scheme", text("NAME"), "scheme.name; the scheme's own degree unless --degree is given")
-      ("degree", text("P"), "scheme.degree")
-      ("cells", text("N"), "scheme.cells, over the length of the body")
-      ("particles-per-cell", text("K"), "scheme.particles_per_cell")
-      ("time-step", text("S"), "scheme.time_step, s")
-      ("courant", text("C"), "scheme.courant, c dt/h")
-      ("step-fraction", text("R"), "scheme.step_fraction, time step over the critical one")
-      ("end-time", text("S"), "end_time, s")
-      ("set", po::value<std::vector<std::string>>()->composing()->value_name("KEY=VALUE"), "set any key of the scene")
-      ("snapshots", text("N"), "output.snapshots, after the start")
-      ("output", text("DIR"), "output folder (default hompm-out/CASE-VARIANT-SCHEME)")
-      ("no-vtk", "write no vtk files")
-      ("check", text("DIR"), "compare with a golden folder; its scene is run when none is named")
-      ("explain", "print the stages of a step and what called for each, and run nothing")
-      ("json", "print run.json instead of the summary")
-      ("quiet", "print nothing but errors")
-      ("list", "list cases, schemes, materials and effects")
-      ("version", "print the version")
-      ("help", "print this");
+  options.add_options()("case", text("NAME"), "built-in case: bar, column")(
+      "scene", text("FILE"), "scene file instead of a case")("variant", text("NAME"), "variant of the case")(
+      "scheme", text("NAME"), "scheme.name; the scheme's own degree unless --degree is given")(
+      "degree", text("P"), "scheme.degree")("cells", text("N"), "scheme.cells, over the length of the body")(
+      "particles-per-cell", text("K"), "scheme.particles_per_cell")(
+      "time-step", text("S"), "scheme.time_step, s")("courant", text("C"), "scheme.courant, c dt/h")(
+      "step-fraction", text("R"), "scheme.step_fraction, time step over the critical one")(
+      "end-time", text("S"), "end_time, s")(
+      "set", po::value<std::vector<std::string>>()->composing()->value_name("KEY=VALUE"),
+      "set any key of the scene")("snapshots", text("N"), "output.snapshots, after the start")(
+      "output", text("DIR"), "output folder (default hompm-out/CASE-VARIANT-SCHEME)")(
+      "no-vtk", "write no vtk files")("check", text("DIR"),
+                                      "compare with a golden folder; its scene is run when none is named")(
+      "explain", "print the stages of a step and what called for each, and run nothing")(
+      "json", "print run.json instead of the summary")("quiet", "print nothing but errors")(
+      "list", "list cases, schemes, materials and effects")("version", "print the version")("help",
+                                                                                            "print this");
   return options;
 }
 
@@ -107,13 +107,16 @@ std::vector<hompm::Override> overrides_of(const po::variables_map& given) {
 /// The scene that is asked for: a case, a file, or that of a golden folder.
 hompm::Scene scene_of(const po::variables_map& given) {
   auto overrides = overrides_of(given);
-  const auto text = [&](const char* option) { return given.count(option) ? given[option].as<std::string>() : std::string(); };
+  const auto text = [&](const char* option) {
+    return given.count(option) ? given[option].as<std::string>() : std::string();
+  };
   if (given.count("case") && given.count("scene")) throw UsageError("--case and --scene exclude each other");
   if (given.count("variant") && !given.count("case")) throw UsageError("--variant goes with --case");
   if (given.count("scene")) return hompm::load_scene(text("scene"), overrides);
   if (given.count("case")) return hompm::load_builtin(text("case"), text("variant"), overrides);
   if (given.count("check")) return hompm::load_scene(fs::path(text("check")) / "scene.toml", overrides);
-  throw UsageError("nothing to run: name a --case (bar, column), a --scene FILE, or a golden folder to --check");
+  throw UsageError(
+      "nothing to run: name a --case (bar, column), a --scene FILE, or a golden folder to --check");
 }
 
 /// "here `cells = 64`, there `cells = 32`", for the first line in which two texts differ.
@@ -129,7 +132,8 @@ std::string first_different_line(const std::string& here, const std::string& the
   return "here `" + line_a + "`, there `" + line_b + "`";
 }
 
-/// How often to write is not part of what is simulated: it follows the golden scene unless the command line says otherwise.
+/// How often to write is not part of what is simulated: it follows the golden scene unless the command line
+/// says otherwise.
 void demand_same_scene(hompm::Scene& scene, const po::variables_map& given) {
   const std::string folder = given["check"].as<std::string>();
   const hompm::Scene golden = hompm::load_scene(fs::path(folder) / "scene.toml", {});
@@ -137,7 +141,8 @@ void demand_same_scene(hompm::Scene& scene, const po::variables_map& given) {
   const std::string mine = hompm::scene_text(scene);
   const std::string theirs = hompm::scene_text(golden);
   if (mine == theirs) return;
-  throw UsageError("--check " + folder + ": a golden of another scene: " + first_different_line(mine, theirs));
+  throw UsageError("--check " + folder +
+                   ": a golden of another scene: " + first_different_line(mine, theirs));
 }
 
 fs::path output_folder(const po::variables_map& given, const hompm::Scene& scene) {
@@ -171,13 +176,15 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given) {
   hompm::Snapshot last_valid;
   try {
     hompm::cli::ProgressBar bar(quiet);
-    result = hompm::run(scene, stepping,
-                        {.snapshot = [&](const hompm::Snapshot& snapshot) {
-                           folder.write(snapshot);
-                           last_valid = snapshot;
-                         },
-                         .history = [&](const hompm::HistoryRow& row) { folder.write(row); },
-                         .progress = [&](std::int64_t step, std::int64_t steps) { bar.update(step, steps); }});
+    result =
+        hompm::run(scene, stepping,
+                   {.snapshot =
+                        [&](const hompm::Snapshot& snapshot) {
+                          folder.write(snapshot);
+                          last_valid = snapshot;
+                        },
+                    .history = [&](const hompm::HistoryRow& row) { folder.write(row); },
+                    .progress = [&](std::int64_t step, std::int64_t steps) { bar.update(step, steps); }});
   } catch (const hompm::InvalidRun& invalid) {
     folder.keep_invalid(last_valid, invalid.what());
     throw;
@@ -194,8 +201,10 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given) {
   folder.publish();
 
   if (!quiet) {
-    if (given.count("json")) std::cout << json;
-    else std::cout << hompm::run_summary(report) << "  files     " << folder.path().string() << "\n";
+    if (given.count("json"))
+      std::cout << json;
+    else
+      std::cout << hompm::run_summary(report) << "  files     " << folder.path().string() << "\n";
   }
   if (given.count("check"))
     return check_against(given["check"].as<std::string>(), folder.path(), quiet || given.count("json"));

@@ -6,8 +6,8 @@
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/materials/material.hpp>
-#include <hompm/output/number.hpp>
-#include <hompm/scene/reader.hpp>
+#include <hompm/number.hpp>
+#include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/simulation.hpp>
 
@@ -21,15 +21,16 @@ std::string padded(std::string text, std::size_t width) {
 
 std::string degrees(const Scheme& scheme) {
   if (scheme.lowest_degree == scheme.highest_degree) return "degree " + std::to_string(scheme.lowest_degree);
-  return "degree " + std::to_string(scheme.lowest_degree) + " to " + std::to_string(scheme.highest_degree) + ", default " +
-         std::to_string(scheme.default_degree);
+  return "degree " + std::to_string(scheme.lowest_degree) + " to " + std::to_string(scheme.highest_degree) +
+         ", default " + std::to_string(scheme.default_degree);
 }
 
 std::string effects_left_out(const hompm::Scene& scene) {
   std::string names;
   for (const auto& type : hompm::effect_catalogue()) {
     const auto is_present = [&](const hompm::EffectSpec& spec) { return spec.type == type.name; };
-    if (std::none_of(scene.effects.begin(), scene.effects.end(), is_present)) names += (names.empty() ? "" : ", ") + type.name;
+    if (std::none_of(scene.effects.begin(), scene.effects.end(), is_present))
+      names += (names.empty() ? "" : ", ") + type.name;
   }
   return names.empty() ? "none" : names;
 }
@@ -39,17 +40,20 @@ std::string effects_left_out(const hompm::Scene& scene) {
 std::string catalogue_text() {
   std::string text = "cases (--case, --variant)\n";
   for (const auto& scene : hompm::builtin_scenes())
-    text += "  " + padded(scene.case_name, 10) + padded(scene.variant, 12) + (scene.is_default ? "default\n" : "\n");
+    text += "  " + padded(scene.case_name, 10) + padded(scene.variant, 12) +
+            (scene.is_default ? "default\n" : "\n");
   text += "\nschemes (--scheme)\n";
   for (const auto& scheme : hompm::scheme_table())
-    text += "  " + padded(scheme.name, 14) + scheme.summary + "; " + degrees(scheme) + "\n" + padded("", 16) + scheme.source + "\n";
+    text += "  " + padded(scheme.name, 14) + scheme.summary + "; " + degrees(scheme) + "\n" + padded("", 16) +
+            scheme.source + "\n";
   text += "\nmaterials (material.law)\n";
   for (const auto& [name, formula] : hompm::material_laws()) text += "  " + padded(name, 14) + formula + "\n";
   text += "\neffects ([[effect]] type)\n";
   for (const auto& type : hompm::effect_catalogue()) {
     text += "  " + padded(type.name, 16) + type.meaning + "\n";
     for (const auto& parameter : type.parameters)
-      text += padded("", 18) + padded(parameter.name + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]"), 24) +
+      text += padded("", 18) +
+              padded(parameter.name + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]"), 24) +
               parameter.meaning + "\n";
   }
   return text;
@@ -76,7 +80,8 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
     if (simulation.plan()[phase].empty()) continue;
     text += title + "\n";
     for (const auto& stage : simulation.plan()[phase]) {
-      text += "  " + padded(std::to_string(++number) + ".", 4) + padded(stage.name, 46) + "for " + stage.called_by + "\n";
+      text += "  " + padded(std::to_string(++number) + ".", 4) + padded(stage.name, 46) + "for " +
+              stage.called_by + "\n";
       if (!stage.arrays.empty()) text += padded("", 8) + "owns, " + stage.arrays + "\n";
     }
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
-
 #include <unistd.h>
 
 namespace hompm::cli {
@@ -16,7 +15,8 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::update(std::int64_t step, std::int64_t steps) {
   if (!active_ || step < next_look_) return;
-  next_look_ = step + std::max<std::int64_t>(1, steps / 1000);  // the clock is read a thousand times in a run, not a million
+  next_look_ = step + std::max<std::int64_t>(
+                          1, steps / 1000);  // the clock is read a thousand times in a run, not a million
   const auto now = Clock::now();
   if (now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
@@ -28,7 +28,8 @@ void ProgressBar::draw(std::int64_t step, std::int64_t steps, double elapsed) {
   const double part = static_cast<double>(step) / static_cast<double>(steps);
   const auto filled = static_cast<std::size_t>(part * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  std::fprintf(stderr, "\r[%s] %3.0f %%, %.0f s left \033[K", bar.c_str(), 100.0 * part, elapsed / part - elapsed);
+  std::fprintf(stderr, "\r[%s] %3.0f %%, %.0f s left \033[K", bar.c_str(), 100.0 * part,
+               elapsed / part - elapsed);
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -16,7 +16,6 @@ const BuildInfo& build_info() {
                               .flags = \"@FLAGS@\",
                               .build_type = \"@BUILD_TYPE@\",
                               .architecture = \"@ARCHITECTURE@\",
-                              .eigen = \"@EIGEN@\",
                               .boost = \"@BOOST@\"};
   return info;
 }

@@ -1,8 +1,7 @@
-#include <hompm/error.hpp>
-
 #include <utility>
 
-#include <hompm/output/number.hpp>
+#include <hompm/error.hpp>
+#include <hompm/number.hpp>
 
 namespace hompm {
 namespace {
@@ -29,7 +28,8 @@ std::string Origin::text() const {
   return source + ':' + std::to_string(line) + ':' + std::to_string(column);
 }
 
-SceneError::SceneError(std::vector<Problem> problems) : Error(join(problems)), problems_(std::move(problems)) {}
+SceneError::SceneError(std::vector<Problem> problems)
+    : Error(join(problems)), problems_(std::move(problems)) {}
 
 SceneError::SceneError(const Origin& origin, const std::string& message)
     : SceneError(std::vector<Problem>{{origin, message}}) {}

@@ -5,9 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
 
 #include "support/catch.hpp"
+#include "support/message_of.hpp"
 #include "support/run_command.hpp"
 #include "support/sample_run.hpp"
 #include "support/temporary_folder.hpp"
@@ -16,8 +17,6 @@ namespace fs = std::filesystem;
 using namespace hompm::test;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 /// Two equal runs; `a` is for damaging.
 struct Runs {
@@ -44,7 +43,7 @@ struct Runs {
 
 /// Makes the velocity of particle 1 at time 0.1 differ by one ulp.
 void spoil_velocity(const Runs& runs) {
-  const double velocity = hompm::test::sample_snapshot(0.1, 3).velocity[1];
+  const double velocity = sample_snapshot(0.1, 3).velocity[1];
   const double next = std::nextafter(velocity, 1e300);
   runs.replace("particles.csv", hompm::to_text(velocity), hompm::to_text(next));
 }
@@ -67,7 +66,7 @@ TEST_CASE("hompm-diff tells the first difference and the worst of each field", "
   INFO(result.out);
   CHECK(result.exit_code == 3);
   CHECK(result.err.empty());
-  const double velocity = hompm::test::sample_snapshot(0.1, 3).velocity[1];
+  const double velocity = sample_snapshot(0.1, 3).velocity[1];
   const double next = std::nextafter(velocity, 1e300);
   CHECK(
       result.out ==
@@ -128,7 +127,7 @@ TEST_CASE("hompm-diff --json prints one object", "[diff]") {
   CHECK(first["time"] == 0.1);
   CHECK(first["particle"] == 1);
   CHECK(first["ulps"] == 1);
-  CHECK(first["b"].get<double>() == hompm::test::sample_snapshot(0.1, 3).velocity[1]);
+  CHECK(first["b"].get<double>() == sample_snapshot(0.1, 3).velocity[1]);
   CHECK(object["fields"][3]["differing"] == 1);
   CHECK(object["fields"][3]["worst"] == first);
   CHECK(object["fields"][2]["worst"].is_null());
@@ -180,6 +179,7 @@ TEST_CASE("hompm-diff refuses a command line it does not understand", "[diff]") 
       {"--relative stress=1e-3x", "`1e-3x` is not a finite number"},
       {"--relative stress=1,5", "`1,5` is not a finite number"},
       {"--relative stress=-1e-3", "cannot be negative"},
+      {"--ulps --json", "the value of --ulps is missing: --json is an option"},
       {"--quiet --json", "contradict"},
       {"--json=yes", "--json"},
       {"third", "two folders to compare are needed, not 3"},

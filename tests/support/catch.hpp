@@ -8,13 +8,13 @@
 #include <catch2/generators/catch_generators_all.hpp>
 #include <catch2/matchers/catch_matchers_all.hpp>
 
-namespace support {
+namespace hompm::test {
 inline auto contains(const std::string& part) { return Catch::Matchers::ContainsSubstring(part); }
-}  // namespace support
+}  // namespace hompm::test
 #else
 #include <catch2/catch.hpp>
 
-namespace support {
+namespace hompm::test {
 inline auto contains(const std::string& part) { return Catch::Matchers::Contains(part); }
-}  // namespace support
+}  // namespace hompm::test
 #endif

@@ -1,11 +1,10 @@
 // Runs a shell command the way a user would and keeps all it says.
 #pragma once
 
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <sys/wait.h>
 
 #include "support/temporary_folder.hpp"
 

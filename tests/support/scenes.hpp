@@ -5,11 +5,12 @@
 #include <string>
 #include <utility>
 
-#include <hompm/scene/reader.hpp>
+#include <hompm/scene_file/reader.hpp>
 
-namespace support {
+namespace hompm::test {
 
-/// The case, its variant, and keys set as on the command line: built_in("bar", "large", {{"scheme.cells", "16"}}).
+/// The case, its variant, and keys set as on the command line: built_in("bar", "large", {{"scheme.cells",
+/// "16"}}).
 inline hompm::Scene built_in(const std::string& case_name, const std::string& variant,
                              std::initializer_list<std::pair<std::string, std::string>> keys = {}) {
   std::vector<hompm::Override> overrides;
@@ -40,4 +41,4 @@ time_step = 1e-3
                             "free body", overrides);
 }
 
-}  // namespace support
+}  // namespace hompm::test

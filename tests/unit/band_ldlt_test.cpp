@@ -1,4 +1,5 @@
-// The band solver against Eigen, and the Richardson iteration of Tielen et al. (2017) against the band solver.
+// The band solver against Eigen, and the Richardson iteration of Tielen et al. (2017) against the band
+// solver.
 #include <cmath>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace {
 /// ∫ N_i N_j over `cells` spans of width 1, the last one filled up to `cut`.
 template <int P>
 Eigen::MatrixXd mass_matrix(int cells, double cut, BandLdlt<P>& band) {
-  const hompm::numerics::SplineSpace space(P, cells + P, 0.0, 1.0);  // margin, so that the cut span is an inner one
+  const hompm::numerics::SplineSpace space(P, cells + P, 0.0,
+                                           1.0);  // margin, so that the cut span is an inner one
   const auto rule = hompm::numerics::gauss_legendre(P + 1);
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(cells + P, cells + P);
   band.clear();
@@ -31,7 +33,8 @@ Eigen::MatrixXd mass_matrix(int cells, double cut, BandLdlt<P>& band) {
         for (int j = 0; j <= P; ++j) {
           const double entry = width * rule.weights[g] * values[i] * values[j];
           dense(cell + i, cell + j) += entry;
-          if (j <= i) band.lower(static_cast<std::size_t>(cell + i), static_cast<std::size_t>(i - j)) += entry;
+          if (j <= i)
+            band.lower(static_cast<std::size_t>(cell + i), static_cast<std::size_t>(i - j)) += entry;
         }
     }
   }
@@ -51,7 +54,8 @@ void compare_with_eigen(double cut) {
   REQUIRE(band.factorise(0, rows) == rows);
   band.solve(0, rows, x);
   const Eigen::VectorXd eigen = dense.ldlt().solve(b);
-  // Both are backward stable: they may differ by eps times the condition number, which is below 1e6 for cut = 0.5, p = 5.
+  // Both are backward stable: they may differ by eps times the condition number, which is below 1e6 for cut =
+  // 0.5, p = 5.
   for (int i = 0; i < cells + P; ++i) CHECK(std::abs(x[static_cast<std::size_t>(i)] - eigen(i)) < 1e-9);
 }
 
@@ -99,12 +103,14 @@ TEST_CASE("Richardson iteration with the row sums as preconditioner ends where t
   const Eigen::VectorXd lumped = mass.rowwise().sum();
   Eigen::VectorXd v = b.cwiseQuotient(lumped);
   int rounds = 0;
-  for (Eigen::VectorXd residual = b - mass * v; residual.norm() > 1e-9 * b.norm() && rounds < 10000; ++rounds) {
+  for (Eigen::VectorXd residual = b - mass * v; residual.norm() > 1e-9 * b.norm() && rounds < 10000;
+       ++rounds) {
     v += residual.cwiseQuotient(lumped);
     residual = b - mass * v;
   }
   INFO(rounds << " rounds");
   CHECK(rounds < 10000);
-  for (int i = 0; i < 22; ++i)  // residual 1e-9 |b|, smallest eigenvalue of the mass matrix about 0.01, |b| about 10
+  for (int i = 0; i < 22;
+       ++i)  // residual 1e-9 |b|, smallest eigenvalue of the mass matrix about 0.01, |b| about 10
     CHECK(std::abs(v(i) - direct[static_cast<std::size_t>(i)]) < 1e-6);
 }

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
 #include <hompm/error.hpp>
 #include <hompm/reference/characteristics.hpp>
 #include <hompm/reference/method_of_lines.hpp>
-#include <vector>
 
 #include "support/catch.hpp"
 

@@ -17,8 +17,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// Largest stable Courant number c Δt/h of a bar, fixed on the left and on the right fixed or free with a margin of grid
-/// beyond, cells of width 1 and c = 1, from dense matrices built here from their definitions:
+/// Largest stable Courant number c Δt/h of a bar, fixed on the left and on the right fixed or free with a
+/// margin of grid beyond, cells of width 1 and c = 1, from dense matrices built here from their definitions:
 /// v' = v + Δt A σ, σ' = σ + Δt D v', stable up to 2/√ρ(DA).
 double dense_limit(const hompm::Scheme& scheme, int degree, int cells, int per_cell, bool free_end) {
   const hompm::numerics::SplineSpace space(degree, cells + (free_end ? degree + 1 : 0), 0.0, 1.0);
@@ -63,16 +63,19 @@ double dense_limit(const hompm::Scheme& scheme, int degree, int cells, int per_c
       }
     }
   const bool reconstructs = scheme.quadrature == hompm::Quadrature::reconstructed;
-  const Matrix force = reconstructs ? Matrix(bg.transpose() * weight.asDiagonal() * spline) : Matrix(mass * b.transpose());
-  // The functions that move: not the first, which is fixed; not the last where that end is fixed, too, or those beyond the
-  // body where it is free.
+  const Matrix force =
+      reconstructs ? Matrix(bg.transpose() * weight.asDiagonal() * spline) : Matrix(mass * b.transpose());
+  // The functions that move: not the first, which is fixed; not the last where that end is fixed, too, or
+  // those beyond the body where it is free.
   const int inner = free_end ? cells + degree - 1 : functions - 2;
   const auto free = [&](const Matrix& m) { return Matrix(m.middleRows(1, inner)); };
   const Matrix accelerate = lumped.segment(1, inner).cwiseInverse().asDiagonal() * free(force);
   Matrix project;
   if (scheme.velocity_mass == hompm::MassForm::consistent) {
     const Matrix consistent = ng.transpose() * weight.asDiagonal() * ng;
-    project = consistent.block(1, 1, inner, inner).ldlt().solve(free(ng.transpose() * weight.asDiagonal() * spline));
+    project = consistent.block(1, 1, inner, inner)
+                  .ldlt()
+                  .solve(free(ng.transpose() * weight.asDiagonal() * spline));
   } else {
     project = lumped.segment(1, inner).cwiseInverse().asDiagonal() * free(mass * n.transpose());
   }
@@ -80,11 +83,14 @@ double dense_limit(const hompm::Scheme& scheme, int degree, int cells, int per_c
   return 2.0 / std::sqrt(map.eigenvalues().cwiseAbs().maxCoeff());
 }
 
-double computed_limit(const std::string& scheme, int degree, const std::string& cells, const std::string& per_cell,
-                      const std::string& right) {
-  const auto scene = support::built_in("bar", "small", {{"scheme.name", scheme}, {"scheme.degree", std::to_string(degree)},
-                                                        {"scheme.cells", cells}, {"scheme.particles_per_cell", per_cell},
-                                                        {"ends.right", right}});
+double computed_limit(const std::string& scheme, int degree, const std::string& cells,
+                      const std::string& per_cell, const std::string& right) {
+  const auto scene = hompm::test::built_in("bar", "small",
+                                           {{"scheme.name", scheme},
+                                            {"scheme.degree", std::to_string(degree)},
+                                            {"scheme.cells", cells},
+                                            {"scheme.particles_per_cell", per_cell},
+                                            {"ends.right", right}});
   return hompm::critical_time_step(scene) * 10.0 / (25.0 / std::stod(cells));
 }
 
@@ -95,7 +101,8 @@ TEST_CASE("the critical step agrees with a dense eigenvalue solve to 1 %") {
   const int per_cell = GENERATE(2, 3, 4);
   const bool free_end = GENERATE(false, true);
   for (int degree = scheme.lowest_degree; degree <= scheme.highest_degree; ++degree) {
-    INFO(scheme.name << " p = " << degree << ", " << per_cell << " particles per cell, right end " << (free_end ? "free" : "fixed"));
+    INFO(scheme.name << " p = " << degree << ", " << per_cell << " particles per cell, right end "
+                     << (free_end ? "free" : "fixed"));
     const double dense = dense_limit(scheme, degree, 16, per_cell, free_end);
     const double computed =
         computed_limit(scheme.name, degree, "16", std::to_string(per_cell), free_end ? "free" : "fixed");
@@ -104,9 +111,10 @@ TEST_CASE("the critical step agrees with a dense eigenvalue solve to 1 %") {
 }
 
 TEST_CASE("with many particles per cell the limits are those of exact integration") {
-  // Eigenvalues of the step with exact integrals (docs/method.md, "Critical step"); 16 particles per cell are within 1 % of
-  // them. Not so tielen2017 with p = 1, whose stress jumps at the breakpoints: a cubic spline through jumps overshoots
-  // however many particles there are (0.94 with 8 per cell, 1.01 with 16, instead of 1).
+  // Eigenvalues of the step with exact integrals (docs/method.md, "Critical step"); 16 particles per cell are
+  // within 1 % of them. Not so tielen2017 with p = 1, whose stress jumps at the breakpoints: a cubic spline
+  // through jumps overshoots however many particles there are (0.94 with 8 per cell, 1.01 with 16, instead of
+  // 1).
   const std::vector<double> lumped{1.633, 1.923, 1.637, 1.373, 1.174};
   const std::vector<double> consistent{1.000, 1.392, 1.144, 0.943, 0.795};
   for (int degree = 1; degree <= 5; ++degree) {
@@ -114,6 +122,7 @@ TEST_CASE("with many particles per cell the limits are those of exact integratio
     const auto p = static_cast<std::size_t>(degree - 1);
     CHECK(std::abs(computed_limit("bspline", degree, "64", "16", "fixed") - lumped[p]) <= 0.01 * lumped[p]);
     if (degree > 1)
-      CHECK(std::abs(computed_limit("tielen2017", degree, "64", "16", "fixed") - consistent[p]) <= 0.01 * consistent[p]);
+      CHECK(std::abs(computed_limit("tielen2017", degree, "64", "16", "fixed") - consistent[p]) <=
+            0.01 * consistent[p]);
   }
 }

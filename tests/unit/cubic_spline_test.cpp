@@ -48,7 +48,8 @@ TEST_CASE("cubics are reproduced, between and beyond the sites") {
   for (const double site : x) y.push_back(f(site));
   const Spline spline(x, y);
   for (double at = x.front() - 0.05; at < x.back() + 0.05; at += 0.013)
-    CHECK(std::abs(spline(at) - f(at)) < 1e-13 * std::max(1.0, std::abs(f(x.back()))));  // condition ~ 1e2, eps 2e-16
+    CHECK(std::abs(spline(at) - f(at)) <
+          1e-13 * std::max(1.0, std::abs(f(x.back()))));  // condition ~ 1e2, eps 2e-16
 }
 
 TEST_CASE("few sites give the straight line and the parabola") {
@@ -83,7 +84,8 @@ TEST_CASE("the spline passes through its data and agrees with a dense solve of t
   }
   // the third derivative is continuous at the second and the last but one site
   entry(0, 0) = h(1), entry(0, 1) = -(h(0) + h(1)), entry(0, 2) = h(0);
-  entry(n - 1, n - 3) = h(n - 2), entry(n - 1, n - 2) = -(h(n - 3) + h(n - 2)), entry(n - 1, n - 1) = h(n - 3);
+  entry(n - 1, n - 3) = h(n - 2), entry(n - 1, n - 2) = -(h(n - 3) + h(n - 2)),
+                   entry(n - 1, n - 1) = h(n - 3);
   const Eigen::VectorXd m = a.fullPivLu().solve(b);
   for (std::size_t i = 0; i < n; ++i)
     CHECK(std::abs(spline.second[i] - m(static_cast<Eigen::Index>(i))) < 1e-11 * m.cwiseAbs().maxCoeff());
@@ -98,7 +100,8 @@ TEST_CASE("interpolation of a smooth function is of fourth order") {
     }
     const Spline spline(x, y);
     double worst = 0.0;
-    for (int k = 0; k <= 1000; ++k) worst = std::max(worst, std::abs(spline(k / 1000.0) - hompm::numerics::sin_pi(k / 1000.0)));
+    for (int k = 0; k <= 1000; ++k)
+      worst = std::max(worst, std::abs(spline(k / 1000.0) - hompm::numerics::sin_pi(k / 1000.0)));
     return worst;
   };
   CHECK(error(20) / error(40) > 14.0);

@@ -47,10 +47,11 @@ TEST_CASE("log is the correctly rounded logarithm", "[elementary]") {
 }
 
 TEST_CASE("log is correctly rounded in hard cases", "[elementary]") {
-  // The worst of 7·10⁸ numbers in [0.25, 4.25): their logarithms lie within 2^-27 to 2^-30 ulp of the middle
-  // between two doubles, so that an error of 2^-80 would round some of them wrongly.
+  // The worst of 10⁹ numbers in (1, 1.01) and [0.25, 4.25): their logarithms lie within 2^-26 to 2^-30 ulp of
+  // the middle between two doubles, so that an error of 2^-80 would round some of them wrongly.
   for (const double x :
-       {0x1.52ed3b5e54f32p+1, 0x1.3816e1ffdad03p+1, 0x1.65834fa4edb06p+0, 0x1.4d8199fb604afp+1,
+       {0x1.017fcaa0b71aep+0, 0x1.01084a4f61085p+0, 0x1.01612d7f90394p+0, 0x1.003d05034d77fp+0,
+        0x1.52ed3b5e54f32p+1, 0x1.3816e1ffdad03p+1, 0x1.65834fa4edb06p+0, 0x1.4d8199fb604afp+1,
         0x1.f76661380b68ep+0, 0x1.ee69d73daabb6p+0, 0x1.503ff787b6b33p+1}) {
     CHECK(numerics::log(x) == rounded(boost::multiprecision::log(Precise(x))));
   }

@@ -1,9 +1,10 @@
 #include <cmath>
-#include <hompm/error.hpp>
-#include <hompm/materials/material.hpp>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include <hompm/error.hpp>
+#include <hompm/materials/material.hpp>
 
 #include "support/catch.hpp"
 

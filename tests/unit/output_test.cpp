@@ -1,23 +1,15 @@
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <array>
-#include <bit>
-#include <charconv>
-#include <csignal>
-#include <cstdlib>
-#include <limits>
+#include <filesystem>
 #include <set>
 #include <sstream>
+#include <string>
+#include <unistd.h>
 
 #include <hompm/error.hpp>
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
 #include <hompm/output/run_folder.hpp>
-#include <hompm/output/text_file.hpp>
 
 #include "support/catch.hpp"
+#include "support/message_of.hpp"
 #include "support/run_command.hpp"
 #include "support/sample_run.hpp"
 #include "support/temporary_folder.hpp"
@@ -36,52 +28,6 @@ std::set<std::string> files_in(const fs::path& folder) {
   }
   return names;
 }
-
-/// What() of the error of type `Failure` that `work` throws; "" when it throws none.
-template <class Failure, class Work>
-std::string message_of(Work work) {
-  try {
-    work();
-  } catch (const Failure& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
-
-/// Root may write everywhere; as long as this lives, the process may not.
-class Unprivileged {
- public:
-  Unprivileged() {
-    if (::geteuid() == 0 && ::seteuid(65534) != 0) throw std::runtime_error("seteuid failed");
-  }
-  ~Unprivileged() {
-    if (::seteuid(::getuid()) != 0) std::abort();
-  }
-  Unprivileged(const Unprivileged&) = delete;
-  Unprivileged& operator=(const Unprivileged&) = delete;
-};
-
-/// As long as this lives, no file can grow beyond `bytes`.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 }  // namespace
 
@@ -198,19 +144,6 @@ TEST_CASE("publishing replaces the earlier run and nothing else", "[output]") {
   for (const auto& name : mine) CHECK(read_file(folder / name) == "mine");
 }
 
-TEST_CASE("a folder whose replacement failed half-way does not look complete", "[output]") {
-  const TemporaryFolder folder;
-  write_sample_run(folder.path(), 2);
-  fs::remove(folder / "stress.csv");
-  fs::create_directory(folder / "stress.csv");
-  RunFolder run(folder.path(), false);
-  run.write("run.json", "{}\n");
-  const auto message = message_of<hompm::FileError>([&] { run.publish(); });
-  INFO(message);
-  CHECK(contains(message, (folder / "stress.csv").string() + ": Is a directory"));
-  CHECK_FALSE(fs::exists(folder / "run.json"));
-}
-
 TEST_CASE("two runs at a time in one folder do not mix", "[output]") {
   const TemporaryFolder folder;
   RunFolder first(folder.path(), false);
@@ -243,100 +176,13 @@ TEST_CASE("an invalid run keeps its last valid snapshot and nothing that looks l
     std::getline(rows, row);
     CHECK(row.ends_with("," + hompm::to_text(sample_snapshot(0.1, 2).stretch[0])));
   }
-  SECTION("over an earlier valid run, which stays") {
+  SECTION("over an earlier run, which could be taken for its result") {
     write_sample_run(folder.path(), 4, true);
-    auto expected = files_in(folder.path());
-    const auto particles = read_file(folder / "particles.csv");
+    write_file(folder / "notes.txt", "the user's own");
     { RunFolder(folder.path(), true).keep_invalid(sample_snapshot(0.1, 2), "unstable"); }
-    expected.insert({"invalid/last_valid.csv", "invalid/reason.txt"});
-    CHECK(files_in(folder.path()) == expected);
-    CHECK(read_file(folder / "particles.csv") == particles);
+    CHECK(files_in(folder.path()) ==
+          std::set<std::string>{"notes.txt", "invalid/last_valid.csv", "invalid/reason.txt"});
   }
-}
-
-TEST_CASE("a value that is not finite never reaches a file", "[output]") {
-  const TemporaryFolder folder;
-  RunFolder run(folder.path(), true);
-  const double bad =
-      GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-               -std::numeric_limits<double>::infinity());
-  auto snapshot = sample_snapshot(0.5, 8);
-  snapshot.velocity[7] = bad;
-  CHECK(message_of<hompm::Error>([&] { run.write(snapshot); }) ==
-        "velocity of particle 7 at time 0.5 is not finite and cannot be written");
-  auto row = sample_history(0.5);
-  row.stored = bad;
-  CHECK(message_of<hompm::Error>([&] { run.write(row); }) ==
-        "stored at time 0.5 is not finite and cannot be written");
-  snapshot = sample_snapshot(0.5, 8);
-  snapshot.density.pop_back();
-  CHECK(contains(message_of<hompm::Error>([&] { run.write(snapshot); }),
-                 "7 values of density for 8 particles"));
-
-  run.write(sample_snapshot(0.5, 1));  // what was refused left the files as they were
-  run.publish();
-  CHECK(contains(read_file(folder / "vtk/snapshot_0000.vtu"), "NumberOfPoints=\"1\""));
-  CHECK(contains(read_file(folder / "particles.csv"), "density\n0.5,0,"));
-}
-
-TEST_CASE("a folder that cannot be had is an error with path and reason", "[output]") {
-  const TemporaryFolder folder;
-  SECTION("below a regular file") {
-    write_file(folder / "file", "text");
-    const auto message = message_of<hompm::FileError>([&] { RunFolder(folder / "file/out", false); });
-    INFO(message);
-    CHECK(contains(message, (folder / "file").string() + ": Not a directory"));
-    CHECK(read_file(folder / "file") == "text");
-  }
-  SECTION("read-only") {
-    ::chmod(folder.path().c_str(), 0555);
-    const Unprivileged guard;
-    for (const auto& path : {folder.path(), folder / "new"}) {
-      const auto message = message_of<hompm::FileError>([&] { RunFolder(path, false); });
-      INFO(message);
-      CHECK(contains(message, path.string()));
-      CHECK(contains(message, ": Permission denied"));
-    }
-  }
-  SECTION("without a name") {
-    CHECK_FALSE(message_of<hompm::FileError>([] { RunFolder("", false); }).empty());
-  }
-  SECTION("partly created before it failed") {
-    const auto path = folder / "a" / "b" / std::string(300, 'x');
-    CHECK(contains(message_of<hompm::FileError>([&] { RunFolder(path, false); }), ": File name too long"));
-    CHECK(fs::is_empty(folder.path()));
-  }
-}
-
-TEST_CASE("a full disk is an error and no half-written run is published", "[output]") {
-  const TemporaryFolder folder;
-  fs::create_directory(folder / "out");
-  {
-    RunFolder run(folder / "out", true);
-    const auto large = sample_snapshot(0.0, 20000);
-    {
-      const FileSizeLimit limit(100000);
-      const auto message = message_of<hompm::FileError>([&] { run.write(large); });
-      INFO(message);
-      CHECK(contains(message, (folder / "out/particles.csv").string() + ": File too large"));
-    }
-    CHECK_FALSE(message_of<hompm::Error>([&] { run.write(large); }).empty());
-    CHECK_FALSE(message_of<hompm::Error>([&] { run.publish(); }).empty());
-  }
-  CHECK(fs::is_empty(folder / "out"));
-  {
-    RunFolder run(folder / "out", false);
-    run.write(
-        sample_snapshot(0.0, 1000));  // stays in the buffer: the disk is only seen to be full at the end
-    const FileSizeLimit limit(1000);
-    CHECK(contains(message_of<hompm::FileError>([&] { run.publish(); }), ": File too large"));
-  }
-  CHECK(fs::is_empty(folder / "out"));
-
-  hompm::detail::TextFile full("/dev/full", "/dev/full");
-  full << "text";
-  CHECK(message_of<hompm::FileError>([&] { full.close(); }) ==
-        "cannot write /dev/full: No space left on device");
 }
 
 TEST_CASE("meshio reads the snapshots back bit for bit", "[output]") {

@@ -29,14 +29,15 @@ double cox_de_boor(int p, int cells, int i, int k, double x) {
   const auto knot = [&](int j) { return static_cast<double>(std::min(std::max(j - p, 0), cells)); };
   if (k == 0) return knot(i) <= x && x < knot(i + 1) ? 1.0 : 0.0;
   double value = 0.0;
-  if (knot(i + k) > knot(i)) value += (x - knot(i)) / (knot(i + k) - knot(i)) * cox_de_boor(p, cells, i, k - 1, x);
+  if (knot(i + k) > knot(i))
+    value += (x - knot(i)) / (knot(i + k) - knot(i)) * cox_de_boor(p, cells, i, k - 1, x);
   if (knot(i + k + 1) > knot(i + 1))
     value += (knot(i + k + 1) - x) / (knot(i + k + 1) - knot(i + 1)) * cox_de_boor(p, cells, i + 1, k - 1, x);
   return value;
 }
 
-// A value of the basis is a polynomial of degree ≤ 5 with coefficients below 40 on [0, 1]: its rounding error stays
-// below 64 units in the last place of 1.
+// A value of the basis is a polynomial of degree ≤ 5 with coefficients below 40 on [0, 1]: its rounding error
+// stays below 64 units in the last place of 1.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -69,7 +70,8 @@ TEST_CASE("the basis agrees with the Cox-de Boor recursion") {
     for (const double s : {0.0, 0.25, 0.625, 0.96875}) {
       const Basis b = evaluate(space, {cell, s});
       for (int k = 0; k <= p; ++k)
-        CHECK(std::abs(b.values[static_cast<std::size_t>(k)] - cox_de_boor(p, cells, cell + k, p, cell + s)) <= rounding);
+        CHECK(std::abs(b.values[static_cast<std::size_t>(k)] -
+                       cox_de_boor(p, cells, cell + k, p, cell + s)) <= rounding);
     }
   }
 }
@@ -123,7 +125,8 @@ TEST_CASE("a linear field is reproduced with its gradient") {
       slope += b.gradients[static_cast<std::size_t>(k)] * coefficient[static_cast<std::size_t>(at.cell + k)];
     }
     CHECK(std::abs(value - x) <= 4 * rounding);
-    CHECK(std::abs(slope - 1.0) <= 32 * rounding);  // gradients are 1/h times a sum of cancelling terms up to |x| = 3
+    CHECK(std::abs(slope - 1.0) <=
+          32 * rounding);  // gradients are 1/h times a sum of cancelling terms up to |x| = 3
   }
 }
 

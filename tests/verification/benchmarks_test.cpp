@@ -1,6 +1,6 @@
-// The two benchmarks against the exact solution, and against the errors an independent code found for the same schemes.
-// Where a scheme converges our errors must be within 15 % of that code's; where grid crossing spoils it they need only be as
-// bad, for what noise does in detail depends on the last bit.
+// The two benchmarks against the exact solution, and against the errors an independent code found for the
+// same schemes. Where a scheme converges our errors must be within 15 % of that code's; where grid crossing
+// spoils it they need only be as bad, for what noise does in detail depends on the last bit.
 #include <cmath>
 #include <map>
 #include <string>
@@ -28,20 +28,25 @@ const std::vector<std::string> grids{"16", "32", "64", "128"};
 std::vector<hompm::ErrorReport> bar(const std::string& scheme) {
   std::vector<hompm::ErrorReport> errors;
   for (const auto& cells : grids)
-    errors.push_back(errors_of(support::built_in("bar", "large", {{"scheme.name", scheme}, {"scheme.cells", cells}})));
+    errors.push_back(
+        errors_of(hompm::test::built_in("bar", "large", {{"scheme.name", scheme}, {"scheme.cells", cells}})));
   return errors;
 }
 
 std::vector<hompm::ErrorReport> column(const std::string& scheme) {
   std::vector<hompm::ErrorReport> errors;
   for (const auto& cells : grids)
-    errors.push_back(errors_of(support::built_in(
-        "column", "large",
-        {{"scheme.name", scheme}, {"scheme.cells", cells}, {"end_time", "0.5"}, {"scheme.time_step", "1e-5"}})));
+    errors.push_back(errors_of(hompm::test::built_in("column", "large",
+                                                     {{"scheme.name", scheme},
+                                                      {"scheme.cells", cells},
+                                                      {"end_time", "0.5"},
+                                                      {"scheme.time_step", "1e-5"}})));
   return errors;
 }
 
-bool within(double value, double expected, double part) { return std::abs(value - expected) <= part * expected; }
+bool within(double value, double expected, double part) {
+  return std::abs(value - expected) <= part * expected;
+}
 
 }  // namespace
 
@@ -55,7 +60,8 @@ TEST_CASE("bar large, tielen2017: second order in displacement and stress") {
   CHECK(within(errors.front().stress.relative_l2, 1.9e-2, 0.15));
   CHECK(within(errors.back().stress.relative_l2, 3.3e-4, 0.15));
   // order over three halvings
-  CHECK(std::log2(errors.front().displacement.relative_l2 / errors.back().displacement.relative_l2) / 3 >= 1.9);
+  CHECK(std::log2(errors.front().displacement.relative_l2 / errors.back().displacement.relative_l2) / 3 >=
+        1.9);
   CHECK(std::log2(errors.front().stress.relative_l2 / errors.back().stress.relative_l2) / 3 >= 1.9);
   CHECK(std::log2(errors.front().velocity.relative_l2 / errors.back().velocity.relative_l2) / 3 >= 1.8);
 }
@@ -107,18 +113,23 @@ TEST_CASE("column large at t = 0.5 s: bspline stalls and classical gets worse") 
 
 TEST_CASE("column large: what the step of 1e-4 s costs is first order in the step") {
   const auto error = [](const char* step) {
-    return errors_of(support::built_in("column", "large", {{"scheme.cells", "128"}, {"end_time", "0.5"}, {"scheme.time_step", step}}))
+    return errors_of(hompm::test::built_in(
+                         "column", "large",
+                         {{"scheme.cells", "128"}, {"end_time", "0.5"}, {"scheme.time_step", step}}))
         .displacement.rms;
   };
-  // 1.4e-5 m is the error of the grid; Euler-Cromer starts half a step off, g Δt/2 in velocity, and g Δt/(2 ω) = 3e-5 m
-  // in the first mode for Δt = 1e-4 s. So the error at that step is the step's, and falls with it.
+  // 1.4e-5 m is the error of the grid; Euler-Cromer starts half a step off, g Δt/2 in velocity, and g Δt/(2
+  // ω) = 3e-5 m in the first mode for Δt = 1e-4 s. So the error at that step is the step's, and falls with
+  // it.
   CHECK(error("1e-4") > 2.0 * error("1e-5"));
 }
 
 TEST_CASE("bar small at t = 0.02 s against the small-strain solution") {
-  const auto scene = support::built_in("bar", "small", {{"end_time", "0.02"}, {"scheme.time_step", "1e-5"}});
+  const auto scene =
+      hompm::test::built_in("bar", "small", {{"end_time", "0.02"}, {"scheme.time_step", "1e-5"}});
   const auto result = hompm::run(scene, hompm::time_stepping(scene));
-  auto small_strain = support::built_in("bar", "small", {{"material.law", "linear"}, {"end_time", "0.02"}});
+  auto small_strain =
+      hompm::test::built_in("bar", "small", {{"material.law", "linear"}, {"end_time", "0.02"}});
   std::string reason;
   const auto errors = hompm::judge(small_strain, result, reason);
   REQUIRE(errors);
@@ -127,13 +138,14 @@ TEST_CASE("bar small at t = 0.02 s against the small-strain solution") {
 }
 
 TEST_CASE("column small: the base variant is computed to a third of a per cent") {
-  const auto errors = errors_of(support::built_in("column", "small"));
+  const auto errors = errors_of(hompm::test::built_in("column", "small"));
   CHECK(errors.displacement.relative_l2 < 4e-3);
 }
 
 TEST_CASE("column settled: damped for 4 s, and then to rest") {
   const auto at_four = [](const char* cells) {
-    auto scene = support::built_in("column", "settled", {{"scheme.cells", cells}, {"scheme.time_step", "2e-4"}, {"end_time", "4"}});
+    auto scene = hompm::test::built_in(
+        "column", "settled", {{"scheme.cells", cells}, {"scheme.time_step", "2e-4"}, {"end_time", "4"}});
     auto result = hompm::run(scene, hompm::time_stepping(scene));
     result.at_rest = true;  // judged by the state of rest all the same
     std::string reason;
@@ -149,7 +161,7 @@ TEST_CASE("column settled: damped for 4 s, and then to rest") {
   CHECK(within(fine.displacement.relative_l2, 5.1e-4, 0.15));
   CHECK(within(fine.stress.max / weight, 4.7e-2, 0.15));
 
-  const auto scene = support::built_in("column", "settled");
+  const auto scene = hompm::test::built_in("column", "settled");
   const auto result = hompm::run(scene, hompm::time_stepping(scene));
   CHECK(result.at_rest);
   CHECK(result.end.time < scene.end_time);

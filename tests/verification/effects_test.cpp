@@ -30,14 +30,16 @@ Outcome run(const std::string& toml, const std::string& cells) {
 
 /// Order of convergence in displacement from 32 to 64 cells.
 double order(const std::string& toml) {
-  return std::log2(run(toml, "32").errors.displacement.relative_l2 / run(toml, "64").errors.displacement.relative_l2);
+  return std::log2(run(toml, "32").errors.displacement.relative_l2 /
+                   run(toml, "64").errors.displacement.relative_l2);
 }
 
 std::string scene(const std::string& rest, const std::string& law = "rate") {
   return R"(
 end_time = 0.25
 body.length = 1
-material = { law = ")" + law + R"(", density = 1000, youngs_modulus = 1e5 }
+material = { law = ")" +
+         law + R"(", density = 1000, youngs_modulus = 1e5 }
 scheme = { cells = 16, particles_per_cell = 4, time_step = 1e-5 }
 )" + rest;
 }
@@ -45,7 +47,8 @@ scheme = { cells = 16, particles_per_cell = 4, time_step = 1e-5 }
 }  // namespace
 
 TEST_CASE("gravity on small strains follows the series solution") {
-  const auto toml = scene("ends.right = \"free\"\n[[effect]]\ntype = \"gravity\"\nacceleration = -9.81\n", "linear");
+  const auto toml =
+      scene("ends.right = \"free\"\n[[effect]]\ntype = \"gravity\"\nacceleration = -9.81\n", "linear");
   const auto outcome = run(toml, "64");
   CHECK(outcome.errors.reference_error == 0.0);
   CHECK(outcome.errors.displacement.relative_l2 < 1e-3);
@@ -54,11 +57,13 @@ TEST_CASE("gravity on small strains follows the series solution") {
 }
 
 TEST_CASE("a step traction sends a front through the body: the loaded end moves with p/(rho c)") {
-  const auto toml = scene("ends.right = \"free\"\n[[effect]]\ntype = \"traction\"\nvalue = 100\nend = \"right\"\n", "linear");
-  auto scene = hompm::parse_scene(toml, "traction", {{"scheme.cells", "128", "--cells"}, {"end_time", "0.05", "--end-time"}});
+  const auto toml = scene(
+      "ends.right = \"free\"\n[[effect]]\ntype = \"traction\"\nvalue = 100\nend = \"right\"\n", "linear");
+  auto scene = hompm::parse_scene(toml, "traction",
+                                  {{"scheme.cells", "128", "--cells"}, {"end_time", "0.05", "--end-time"}});
   const auto result = hompm::run(scene, hompm::time_stepping(scene));
-  // d'Alembert: tip velocity p/(ρ c) = 0.01 m/s until the front is back at 2 L/c = 0.2 s. The front is 1/128 m wide on
-  // this grid and the last particle half a spacing inside: 1 % of the 0.5 m it has run.
+  // d'Alembert: tip velocity p/(ρ c) = 0.01 m/s until the front is back at 2 L/c = 0.2 s. The front is 1/128
+  // m wide on this grid and the last particle half a spacing inside: 1 % of the 0.5 m it has run.
   CHECK(std::abs(result.final.displacement.back() - 0.01 * 0.05) < 0.02 * 0.01 * 0.05);
   CHECK(std::abs(result.end.external_work - 100 * 0.01 * 0.05) < 0.02 * 100 * 0.01 * 0.05);
   CHECK(result.largest_momentum_residual < 1e-10 * result.largest_momentum);
@@ -84,15 +89,20 @@ TEST_CASE("a traction in the large follows the reference solution, at the order 
 }
 
 TEST_CASE("mass-proportional damping makes a mode decay with half its rate, and books what it takes") {
-  const auto toml = scene("initial.velocity = { shape = \"sine\", amplitude = 1e-3 }\n[[effect]]\ntype = \"mass-damping\"\nrate = 8\n", "linear");
+  const auto toml = scene(
+      "initial.velocity = { shape = \"sine\", amplitude = 1e-3 }\n[[effect]]\ntype = \"mass-damping\"\nrate "
+      "= 8\n",
+      "linear");
   const auto scene = hompm::parse_scene(toml, "damping", {{"scheme.cells", "64", "--cells"}});
   const auto result = hompm::run(scene, hompm::time_stepping(scene));
   const double omega = hompm::numerics::pi * 10.0;
   const double damped = std::sqrt(omega * omega - 16.0);
-  const double amplitude = 1e-3 / damped * hompm::numerics::exp(-4.0 * 0.25) * hompm::numerics::sin(damped * 0.25);
+  const double amplitude =
+      1e-3 / damped * hompm::numerics::exp(-4.0 * 0.25) * hompm::numerics::sin(damped * 0.25);
   for (std::size_t i = 0; i < result.final.size(); i += 17) {
     const double exact = amplitude * hompm::numerics::sin_pi(result.final.reference_position[i]);
-    CHECK(std::abs(result.final.displacement[i] - exact) < 2e-3 * std::abs(amplitude));  // second order on 64 cells: 1e-3
+    CHECK(std::abs(result.final.displacement[i] - exact) <
+          2e-3 * std::abs(amplitude));  // second order on 64 cells: 1e-3
   }
   const double lost = result.start.kinetic - result.end.kinetic - result.end.stored;
   CHECK(std::abs(result.end.dissipated - lost) < 1e-3 * lost);
@@ -101,16 +111,21 @@ TEST_CASE("mass-proportional damping makes a mode decay with half its rate, and 
 }
 
 TEST_CASE("local damping takes energy from a column and never adds any") {
-  const auto toml = scene("ends.right = \"free\"\n[[effect]]\ntype = \"gravity\"\nacceleration = -9.81\n"
-                          "[[effect]]\ntype = \"local-damping\"\ncoefficient = 0.5\n");
+  const auto toml = scene(
+      "ends.right = \"free\"\n[[effect]]\ntype = \"gravity\"\nacceleration = -9.81\n"
+      "[[effect]]\ntype = \"local-damping\"\ncoefficient = 0.5\n");
   const auto scene = hompm::parse_scene(toml, "local damping", {});
   double before = 0.0;
   int rows = 0;
-  const auto result = hompm::run(scene, hompm::time_stepping(scene), {.snapshot = {}, .history = [&](const auto& row) {
-    CHECK(row.dissipated >= before);
-    before = row.dissipated;
-    ++rows;
-  }, .progress = {}});
+  const auto result = hompm::run(scene, hompm::time_stepping(scene),
+                                 {.snapshot = {},
+                                  .history =
+                                      [&](const auto& row) {
+                                        CHECK(row.dissipated >= before);
+                                        before = row.dissipated;
+                                        ++rows;
+                                      },
+                                  .progress = {}});
   CHECK(rows == 101);
   CHECK(result.end.dissipated > 0.1 * std::abs(result.end.gravity));
   CHECK(result.largest_residual < 5e-3 * result.largest_energy);

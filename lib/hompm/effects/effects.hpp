@@ -1,4 +1,5 @@
-// How each effect of the catalogue joins a plan. One file per effect; the catalogue (registry.cpp) names them.
+// How each effect of the catalogue joins a plan. One file per effect; the catalogue (registry.cpp) names
+// them.
 #pragma once
 
 #include <hompm/effects/registry.hpp>

@@ -24,7 +24,9 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
 EffectType gravity() {
   return {.name = "gravity",
           .meaning = "constant body force, switched on at t = 0",
-          .parameters = {{.name = "acceleration", .unit = "m/s^2", .meaning = "in the direction of X; -9.81 pulls a column down"}},
+          .parameters = {{.name = "acceleration",
+                          .unit = "m/s^2",
+                          .meaning = "in the direction of X; -9.81 pulls a column down"}},
           .join = join};
 }
 

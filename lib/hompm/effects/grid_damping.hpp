@@ -10,9 +10,9 @@
 
 namespace hompm::detail {
 
-/// Adds `force_of(mass, force, velocity)` (Pa) to the force on every grid function, where `force` is out of balance so far
-/// and `velocity` is that of the last projection; books its impulse, and the energy −f·v Δt it takes once the velocity of
-/// the step is known.
+/// Adds `force_of(mass, force, velocity)` (Pa) to the force on every grid function, where `force` is out of
+/// balance so far and `velocity` is that of the last projection; books its impulse, and the energy −f·v Δt it
+/// takes once the velocity of the step is known.
 template <class Force>
 void join_grid_damping(PlanBuilder& builder, const std::string& name, Force force_of) {
   const auto damping = std::make_shared<std::vector<double>>(builder.state.fields.force.size());

@@ -19,8 +19,11 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
 
 EffectType local_damping() {
   return {.name = "local-damping",
-          .meaning = "non-viscous damping: a fraction of the out-of-balance force, against the velocity; for finding rest",
-          .parameters = {{.name = "coefficient", .unit = "-", .meaning = "fraction", .minimum = 0.0, .maximum = 0.99}},
+          .meaning =
+              "non-viscous damping: a fraction of the out-of-balance force, against the velocity; for "
+              "finding rest",
+          .parameters =
+              {{.name = "coefficient", .unit = "-", .meaning = "fraction", .minimum = 0.0, .maximum = 0.99}},
           .join = join};
 }
 

@@ -6,8 +6,9 @@ namespace {
 
 /// f_i = −β M_i v_i: b = −β v in the continuum.
 void join(const EffectSpec& spec, PlanBuilder& builder) {
-  join_grid_damping(builder, "mass-proportional damping",
-                    [rate = spec.number("rate")](double mass, double, double velocity) { return -rate * mass * velocity; });
+  join_grid_damping(
+      builder, "mass-proportional damping",
+      [rate = spec.number("rate")](double mass, double, double velocity) { return -rate * mass * velocity; });
 }
 
 }  // namespace
@@ -15,7 +16,10 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
 EffectType mass_damping() {
   return {.name = "mass-damping",
           .meaning = "body force against the velocity, b = -rate v",
-          .parameters = {{.name = "rate", .unit = "1/s", .meaning = "a mode of small amplitude decays with rate/2", .minimum = 0.0}},
+          .parameters = {{.name = "rate",
+                          .unit = "1/s",
+                          .meaning = "a mode of small amplitude decays with rate/2",
+                          .minimum = 0.0}},
           .join = join};
 }
 

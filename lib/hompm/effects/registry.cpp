@@ -1,6 +1,5 @@
-#include <hompm/effects/registry.hpp>
-
 #include <hompm/effects/effects.hpp>
+#include <hompm/effects/registry.hpp>
 
 namespace hompm {
 

@@ -1,4 +1,5 @@
-// The catalogue of effects a scene may call for: what each is named, which parameters it takes, how it joins a plan.
+// The catalogue of effects a scene may call for: what each is named, which parameters it takes, how it joins
+// a plan.
 #pragma once
 
 #include <limits>
@@ -20,7 +21,7 @@ struct EffectParameter {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
-  std::vector<std::string> words = {};  ///< the words allowed; empty for a number
+  std::vector<std::string> words = {};                  ///< the words allowed; empty for a number
   std::optional<EffectSpec::Value> default_value = {};  ///< none: the parameter must be given
 };
 

@@ -5,7 +5,8 @@
 namespace hompm::detail {
 namespace {
 
-/// f_i = n t N_i(x_end) at the material boundary, with the outward normal n = ±1 (Tielen et al. 2017, section 2).
+/// f_i = n t N_i(x_end) at the material boundary, with the outward normal n = ±1 (Tielen et al. 2017, section
+/// 2).
 void join(const EffectSpec& spec, PlanBuilder& builder) {
   const bool right = spec.text("end") == "right";
   const double force = right ? spec.number("value") : -spec.number("value");
@@ -35,7 +36,11 @@ EffectType traction() {
   return {.name = "traction",
           .meaning = "constant stress on a free end, switched on at t = 0",
           .parameters = {{.name = "value", .unit = "Pa", .meaning = "stress at the end, tension positive"},
-                         {.name = "end", .unit = "", .meaning = "which end", .words = {"left", "right"}, .default_value = "right"}},
+                         {.name = "end",
+                          .unit = "",
+                          .meaning = "which end",
+                          .words = {"left", "right"},
+                          .default_value = "right"}},
           .join = join};
 }
 

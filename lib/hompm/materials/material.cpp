@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
+
 #include <hompm/error.hpp>
 #include <hompm/materials/material.hpp>
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
 
 namespace hompm {
 

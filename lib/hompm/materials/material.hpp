@@ -44,11 +44,15 @@ struct Rate {
 /// σ = E ln λ / λ.
 struct Hencky {
   double youngs_modulus;
-  [[nodiscard]] double stress(double stretch) const { return youngs_modulus * numerics::log(stretch) / stretch; }
+  [[nodiscard]] double stress(double stretch) const {
+    return youngs_modulus * numerics::log(stretch) / stretch;
+  }
   [[nodiscard]] double tangent(double stretch) const {
     return youngs_modulus * (1.0 - numerics::log(stretch)) / (stretch * stretch);
   }
-  [[nodiscard]] double modulus(double stress, double stretch) const { return youngs_modulus / stretch - stress; }
+  [[nodiscard]] double modulus(double stress, double stretch) const {
+    return youngs_modulus / stretch - stress;
+  }
   [[nodiscard]] double stored_energy(double stretch) const {
     const double strain = numerics::log(stretch);
     return 0.5 * youngs_modulus * strain * strain;
@@ -60,7 +64,9 @@ struct Hencky {
 /// σ = (E/2)(λ − 1/λ).
 struct NeoHookean {
   double youngs_modulus;
-  [[nodiscard]] double stress(double stretch) const { return 0.5 * youngs_modulus * (stretch - 1.0 / stretch); }
+  [[nodiscard]] double stress(double stretch) const {
+    return 0.5 * youngs_modulus * (stretch - 1.0 / stretch);
+  }
   [[nodiscard]] double tangent(double stretch) const {
     return 0.5 * youngs_modulus * (1.0 + 1.0 / (stretch * stretch));
   }

@@ -8,9 +8,9 @@
 
 namespace hompm::numerics {
 
-/// L D Lᵀ factorisation of a symmetric matrix with half-bandwidth P, stored by rows of the lower triangle: entry (i, i − k)
-/// at [i][k], k = 0 … P (Golub & Van Loan, Matrix Computations, 4.3). O(n P²) to factorise, O(n P) to solve; all memory is
-/// taken by the constructor.
+/// L D Lᵀ factorisation of a symmetric matrix with half-bandwidth P, stored by rows of the lower triangle:
+/// entry (i, i − k) at [i][k], k = 0 … P (Golub & Van Loan, Matrix Computations, 4.3). O(n P²) to factorise,
+/// O(n P) to solve; all memory is taken by the constructor.
 template <int P>
 class BandLdlt {
  public:
@@ -21,8 +21,9 @@ class BandLdlt {
   double& lower(std::size_t row, std::size_t k) { return band_[row * (P + 1) + k]; }
   [[nodiscard]] double lower(std::size_t row, std::size_t k) const { return band_[row * (P + 1) + k]; }
 
-  /// Factorises rows first … last − 1 in place, entries to columns before `first` ignored. Returns `last`, or the first row
-  /// whose pivot is not above zero: the matrix is then not positive definite and `solve` must not be called.
+  /// Factorises rows first … last − 1 in place, entries to columns before `first` ignored. Returns `last`, or
+  /// the first row whose pivot is not above zero: the matrix is then not positive definite and `solve` must
+  /// not be called.
   [[nodiscard]] std::size_t factorise(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       double pivot = lower(i, 0);
@@ -45,7 +46,8 @@ class BandLdlt {
     return last;
   }
 
-  /// Solves for the rows that were factorised; `x` holds the right-hand side on entry and the solution on return.
+  /// Solves for the rows that were factorised; `x` holds the right-hand side on entry and the solution on
+  /// return.
   void solve(std::size_t first, std::size_t last, std::span<double> x) const {
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t reach = i - first < P ? i - first : P;

@@ -1,17 +1,18 @@
-#include <hompm/numerics/cubic_spline.hpp>
-
 #include <algorithm>
 
 #include <hompm/error.hpp>
+#include <hompm/numerics/cubic_spline.hpp>
 
 namespace hompm::numerics {
 
 CubicSplineSites::CubicSplineSites(std::size_t sites) : count_(sites) {
   if (sites < 2) throw Error("a spline needs at least two sites");
-  for (auto* array : {&sites_, &width_, &inverse_width_, &eliminate_, &inverse_pivot_, &above_}) array->resize(sites);
+  for (auto* array : {&sites_, &width_, &inverse_width_, &eliminate_, &inverse_pivot_, &above_})
+    array->resize(sites);
 }
 
-// Unknowns are the second derivatives M_1 … M_{n−2} at the inner sites; not-a-knot gives M_0 and M_{n−1} from them:
+// Unknowns are the second derivatives M_1 … M_{n−2} at the inner sites; not-a-knot gives M_0 and M_{n−1} from
+// them:
 //   M_0 = (1 + h_0/h_1) M_1 − (h_0/h_1) M_2, and its mirror image.
 std::size_t CubicSplineSites::factorise(std::span<const double> sites) {
   std::copy(sites.begin(), sites.end(), sites_.begin());
@@ -65,7 +66,8 @@ void CubicSplineSites::second_derivatives(std::span<const double> values, std::s
     before = after;
   }
   result[last] *= inverse_pivot_[last];
-  for (std::size_t i = last - 1; i >= 1; --i) result[i] = (result[i] - above_[i] * result[i + 1]) * inverse_pivot_[i];
+  for (std::size_t i = last - 1; i >= 1; --i)
+    result[i] = (result[i] - above_[i] * result[i + 1]) * inverse_pivot_[i];
   const double left = width_[0] * inverse_width_[1];
   const double right = width_[last] * inverse_width_[last - 1];
   result[0] = (1.0 + left) * result[1] - left * result[2];

@@ -7,16 +7,16 @@
 
 namespace hompm::numerics {
 
-/// Interpolating cubic splines with the not-a-knot end condition (de Boor, A Practical Guide to Splines, ch. IV), in terms
-/// of the second derivatives at the sites. Two sites give the straight line, three the parabola. All memory is taken by the
-/// constructor.
+/// Interpolating cubic splines with the not-a-knot end condition (de Boor, A Practical Guide to Splines, ch.
+/// IV), in terms of the second derivatives at the sites. Two sites give the straight line, three the
+/// parabola. All memory is taken by the constructor.
 class CubicSplineSites {
  public:
   /// `sites` is their number, at least 2; throws `Error` below.
   explicit CubicSplineSites(std::size_t sites);
 
-  /// Takes the sites (m) and factorises the tridiagonal matrix. Returns the index of the first site that is not above the
-  /// one before it, or 0 when all are in order; the splines may be used only then.
+  /// Takes the sites (m) and factorises the tridiagonal matrix. Returns the index of the first site that is
+  /// not above the one before it, or 0 when all are in order; the splines may be used only then.
   [[nodiscard]] std::size_t factorise(std::span<const double> sites);
 
   /// Second derivatives (data unit/m²) at the sites of the spline through `values`.
@@ -28,8 +28,8 @@ class CubicSplineSites {
     double left, right;                        ///< of the values at the ends of the interval
     double left_derivative, right_derivative;  ///< of the second derivatives there
   };
-  /// Points outside the sites use the first or last cubic. `hint` is an interval at or before the right one: points in
-  /// ascending order are located in one walk.
+  /// Points outside the sites use the first or last cubic. `hint` is an interval at or before the right one:
+  /// points in ascending order are located in one walk.
   [[nodiscard]] Weights weights(double x, std::size_t hint) const {
     std::size_t i = hint;
     while (i + 2 < count_ && x >= sites_[i + 1]) ++i;
@@ -50,9 +50,9 @@ class CubicSplineSites {
   std::vector<double> sites_;
   std::vector<double> width_;
   std::vector<double> inverse_width_;
-  std::vector<double> eliminate_;      ///< row below minus this times row above
+  std::vector<double> eliminate_;  ///< row below minus this times row above
   std::vector<double> inverse_pivot_;
-  std::vector<double> above_;          ///< coupling to the next unknown
+  std::vector<double> above_;  ///< coupling to the next unknown
 };
 
 }  // namespace hompm::numerics

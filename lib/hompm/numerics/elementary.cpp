@@ -1,11 +1,13 @@
 #include <array>
 #include <bit>
-#include <boost/math/constants/constants.hpp>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <hompm/numerics/elementary.hpp>
 #include <limits>
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <hompm/numerics/elementary.hpp>
 
 namespace hompm::numerics {
 namespace {

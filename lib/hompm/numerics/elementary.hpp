@@ -7,8 +7,8 @@ namespace hompm::numerics {
 /// π rounded to the nearest double.
 inline constexpr double pi = 3.141592653589793;
 
-/// sin(x), cos(x), exp(x), evaluated with 113 bits (Boost.Multiprecision) and rounded once. Slow (microseconds):
-/// for initial fields and reference solutions, not for the step loop.
+/// sin(x), cos(x), exp(x), evaluated with 113 bits (Boost.Multiprecision) and rounded once. Slow
+/// (microseconds): for initial fields and reference solutions, not for the step loop.
 double sin(double x);
 double cos(double x);
 double exp(double x);
@@ -16,8 +16,8 @@ double exp(double x);
 double sin_pi(double x);
 double cos_pi(double x);
 
-/// Natural logarithm for x > 0, finite; evaluated in double-double arithmetic and rounded once. Fast enough for the
-/// step loop.
+/// Natural logarithm for x > 0, finite; evaluated in double-double arithmetic and rounded once. Fast enough
+/// for the step loop.
 double log(double x);
 
 }  // namespace hompm::numerics

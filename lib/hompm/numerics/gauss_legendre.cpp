@@ -1,16 +1,16 @@
-#include <hompm/numerics/gauss_legendre.hpp>
-
 #include <cmath>
 #include <string>
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/elementary.hpp>
+#include <hompm/numerics/gauss_legendre.hpp>
 
 namespace hompm::numerics {
 
 GaussRule gauss_legendre(int n) {
   if (n < 1) throw Error("a Gauss rule has at least one point, not " + std::to_string(n));
-  GaussRule rule{std::vector<double>(static_cast<std::size_t>(n)), std::vector<double>(static_cast<std::size_t>(n))};
+  GaussRule rule{std::vector<double>(static_cast<std::size_t>(n)),
+                 std::vector<double>(static_cast<std::size_t>(n))};
   for (int i = 0; i < (n + 1) / 2; ++i) {
     double z = cos_pi((i + 0.75) / (n + 0.5));
     double slope = 1.0;

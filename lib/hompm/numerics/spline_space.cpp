@@ -1,10 +1,9 @@
-#include <hompm/numerics/spline_space.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <hompm/error.hpp>
+#include <hompm/numerics/spline_space.hpp>
 
 namespace hompm::numerics {
 namespace {
@@ -22,8 +21,8 @@ Polynomial times_linear(const Polynomial& q, double a, double b) {
   return product;
 }
 
-/// Cox–de Boor recursion (de Boor, A Practical Guide to Splines, ch. IX) with knots at whole numbers: the functions
-/// cell … cell + degree restricted to the cell, as polynomials of x − `about`.
+/// Cox–de Boor recursion (de Boor, A Practical Guide to Splines, ch. IX) with knots at whole numbers: the
+/// functions cell … cell + degree restricted to the cell, as polynomials of x − `about`.
 std::vector<Polynomial> pieces_on_cell(int degree, int cells, int cell, int about) {
   const auto knot = [&](int i) { return static_cast<double>(std::clamp(i - degree, 0, cells)); };
   std::vector<Polynomial> functions(static_cast<std::size_t>(degree) + 1);
@@ -50,9 +49,14 @@ std::vector<Polynomial> pieces_on_cell(int degree, int cells, int cell, int abou
 }  // namespace
 
 SplineSpace::SplineSpace(int degree, int cells, double origin, double cell_width)
-    : degree_(degree), cells_(cells), origin_(origin), cell_width_(cell_width), inverse_width_(1.0 / cell_width),
+    : degree_(degree),
+      cells_(cells),
+      origin_(origin),
+      cell_width_(cell_width),
+      inverse_width_(1.0 / cell_width),
       piece_size_(static_cast<std::size_t>(2 * (degree + 1) * (degree + 1))) {
-  if (degree < 1 || degree > max_degree) throw Error("a spline space has degree 1 … 5, not " + std::to_string(degree));
+  if (degree < 1 || degree > max_degree)
+    throw Error("a spline space has degree 1 … 5, not " + std::to_string(degree));
   if (cells < 1) throw Error("a spline space has at least one cell, not " + std::to_string(cells));
   if (!(cell_width > 0.0) || !std::isfinite(cell_width)) throw Error("the cell width must be above zero");
 
@@ -71,11 +75,16 @@ SplineSpace::SplineSpace(int degree, int cells, double origin, double cell_width
 
 void SplineSpace::evaluate(Location at, std::span<double> values, std::span<double> gradients) const {
   switch (degree_) {
-    case 1: return evaluate<1>(at, values.data(), gradients.data());
-    case 2: return evaluate<2>(at, values.data(), gradients.data());
-    case 3: return evaluate<3>(at, values.data(), gradients.data());
-    case 4: return evaluate<4>(at, values.data(), gradients.data());
-    default: return evaluate<5>(at, values.data(), gradients.data());
+    case 1:
+      return evaluate<1>(at, values.data(), gradients.data());
+    case 2:
+      return evaluate<2>(at, values.data(), gradients.data());
+    case 3:
+      return evaluate<3>(at, values.data(), gradients.data());
+    case 4:
+      return evaluate<4>(at, values.data(), gradients.data());
+    default:
+      return evaluate<5>(at, values.data(), gradients.data());
   }
 }
 

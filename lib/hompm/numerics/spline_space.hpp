@@ -7,12 +7,13 @@
 
 namespace hompm::numerics {
 
-/// `cells` knot spans of equal width; first and last knot repeated so that the boundary functions interpolate. There are
-/// `cells + degree` functions; on cell c the functions c … c + degree are not zero. Degree 1 is the classical hat function.
+/// `cells` knot spans of equal width; first and last knot repeated so that the boundary functions
+/// interpolate. There are `cells + degree` functions; on cell c the functions c … c + degree are not zero.
+/// Degree 1 is the classical hat function.
 ///
-/// Every function is one polynomial per cell, of the local coordinate s ∈ [0, 1], kept as an expansion about each end of the
-/// cell: about the nearer one the functions that vanish there keep all their digits, which thin cut spans need. Inside the
-/// grid all cells share one set; only the first and last `degree − 1` differ.
+/// Every function is one polynomial per cell, of the local coordinate s ∈ [0, 1], kept as an expansion about
+/// each end of the cell: about the nearer one the functions that vanish there keep all their digits, which
+/// thin cut spans need. Inside the grid all cells share one set; only the first and last `degree − 1` differ.
 class SplineSpace {
  public:
   /// `origin` and `cell_width` in m. Throws `Error` unless 1 ≤ degree ≤ 5, cells ≥ 1 and cell_width > 0.

@@ -1,6 +1,5 @@
+#include <hompm/number.hpp>
 #include <hompm/output/csv.hpp>
-
-#include <hompm/output/number.hpp>
 
 namespace hompm::detail {
 

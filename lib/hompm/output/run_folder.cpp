@@ -1,17 +1,15 @@
-#include <hompm/output/run_folder.hpp>
-
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
+#include <hompm/number.hpp>
 #include <hompm/output/csv.hpp>
-#include <hompm/output/number.hpp>
+#include <hompm/output/run_folder.hpp>
 #include <hompm/output/staging.hpp>
 #include <hompm/output/vtu.hpp>
 
@@ -153,6 +151,7 @@ void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
   auto text = staging.create("invalid/reason.txt");
   text << reason << "\n";
   text.close();
+  remove_earlier_run(staging.path());
   staging.move_into_place("invalid/last_valid.csv");
   staging.move_into_place("invalid/reason.txt");
 }

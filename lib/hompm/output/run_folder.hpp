@@ -34,9 +34,10 @@ class RunFolder {
   /// `FileError`.
   void write(const std::string& name, const std::string& text);
 
-  /// Ends a run that stopped being valid: moves invalid/last_valid.csv (columns of particles.csv and
-  /// stress.csv) and invalid/reason.txt into place, nothing else. Results of an earlier run stay as they are;
-  /// `publish` is refused from now on. Throws `FileError`, and `Error` when `last` is not finite.
+  /// Ends a run that stopped being valid: removes what an earlier run left, so that nothing there looks like
+  /// the result of this one, and leaves invalid/last_valid.csv (columns of particles.csv and stress.csv) and
+  /// invalid/reason.txt. `publish` is refused from now on. Throws `FileError`, and `Error` when `last` is not
+  /// finite.
   void keep_invalid(const Snapshot& last, const std::string& reason);
 
   /// Removes what an earlier run left under names of its own, run.json first, then renames all files into

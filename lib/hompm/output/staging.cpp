@@ -1,10 +1,9 @@
-#include <hompm/output/staging.hpp>
-
+#include <cerrno>
+#include <cstdio>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
+#include <hompm/output/staging.hpp>
 
 namespace hompm::detail {
 namespace {

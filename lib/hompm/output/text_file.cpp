@@ -1,13 +1,11 @@
-#include <hompm/output/text_file.hpp>
-
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
+#include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
+#include <hompm/output/text_file.hpp>
 
 namespace hompm::detail {
 namespace {

@@ -1,6 +1,5 @@
-#include <hompm/output/vtu.hpp>
-
 #include <hompm/output/columns.hpp>
+#include <hompm/output/vtu.hpp>
 
 namespace hompm::detail {
 namespace {

@@ -1,10 +1,9 @@
-#include <hompm/plan/invalid.hpp>
-
 #include <cmath>
 #include <string>
 
 #include <hompm/error.hpp>
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
+#include <hompm/plan/invalid.hpp>
 
 namespace hompm::detail {
 namespace {
@@ -16,7 +15,8 @@ std::string text(double value) { return std::isfinite(value) ? to_text(value) : 
 }
 
 std::string grid_text(const State& state) {
-  return "[" + to_text(state.grid.origin()) + ", " + to_text(state.grid.breakpoint(state.grid.cells())) + "] m";
+  return "[" + to_text(state.grid.origin()) + ", " + to_text(state.grid.breakpoint(state.grid.cells())) +
+         "] m";
 }
 
 }  // namespace
@@ -24,7 +24,8 @@ std::string grid_text(const State& state) {
 void throw_left_grid(const State& state, std::size_t particle) {
   invalid(state, static_cast<std::int64_t>(particle),
           "left the grid: its position is " + text(state.particles.position[particle]) + ", the grid is " +
-              grid_text(state) + "; a step that is too large or too small a scheme.margin_cells are the usual causes");
+              grid_text(state) +
+              "; a step that is too large or too small a scheme.margin_cells are the usual causes");
 }
 
 void throw_boundary_left_grid(const State& state, double boundary) {
@@ -41,9 +42,10 @@ void throw_inverted(const State& state, std::size_t particle, double stretch) {
 
 void throw_out_of_order(const State& state, std::size_t particle) {
   invalid(state, static_cast<std::int64_t>(particle),
-          "passed its left neighbour: at " + text(state.particles.position[particle]) + " m, the neighbour at " +
-              text(state.particles.position[particle - 1]) +
-              " m; the reconstruction needs particles in order (step too large, or motion the grid cannot resolve)");
+          "passed its left neighbour: at " + text(state.particles.position[particle]) +
+              " m, the neighbour at " + text(state.particles.position[particle - 1]) +
+              " m; the reconstruction needs particles in order (step too large, or motion the grid cannot "
+              "resolve)");
 }
 
 void throw_negative_density(const State& state, double position, double density) {

@@ -1,6 +1,5 @@
-#include <hompm/plan/state.hpp>
-
 #include <hompm/numerics/elementary.hpp>
+#include <hompm/plan/state.hpp>
 
 namespace hompm {
 namespace {
@@ -15,7 +14,12 @@ numerics::SplineSpace make_grid(const Scene& scene) {
 }  // namespace
 
 State initial_state(const Scene& scene) {
-  State state{.grid = make_grid(scene), .ends = scene.ends, .particles = {}, .basis = {}, .fields = {}, .balance = {}};
+  State state{.grid = make_grid(scene),
+              .ends = scene.ends,
+              .particles = {},
+              .basis = {},
+              .fields = {},
+              .balance = {}};
   const auto per_cell = static_cast<std::size_t>(scene.scheme.particles_per_cell);
   const auto count = static_cast<std::size_t>(scene.scheme.cells) * per_cell;
   const double volume = scene.body.length / static_cast<double>(count);
@@ -23,7 +27,8 @@ State initial_state(const Scene& scene) {
   Particles& p = state.particles;
   p.reference_position.resize(count);
   for (std::size_t i = 0; i < count; ++i)
-    p.reference_position[i] = scene.body.length * (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count));
+    p.reference_position[i] =
+        scene.body.length * (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count));
   p.position = p.reference_position;
   p.displacement.assign(count, 0.0);
   p.velocity.assign(count, 0.0);
@@ -34,8 +39,8 @@ State initial_state(const Scene& scene) {
   p.stress.assign(count, 0.0);
   if (const auto& initial = scene.initial_velocity) {
     for (std::size_t i = 0; i < count; ++i)
-      p.velocity[i] =
-          initial->amplitude * numerics::sin_pi(initial->mode * (p.reference_position[i] / scene.body.length));
+      p.velocity[i] = initial->amplitude *
+                      numerics::sin_pi(initial->mode * (p.reference_position[i] / scene.body.length));
   }
   for (const double mass : p.mass) state.total_mass += mass;
   state.right_boundary = scene.body.length;

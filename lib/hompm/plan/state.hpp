@@ -9,8 +9,8 @@
 
 namespace hompm {
 
-/// One entry per particle, ordered by reference position. The displacement is what is summed up, and the position follows
-/// from it: small motions far from the origin keep their digits.
+/// One entry per particle, ordered by reference position. The displacement is what is summed up, and the
+/// position follows from it: small motions far from the origin keep their digits.
 struct Particles {
   std::vector<double> reference_position;  ///< X, m
   std::vector<double> displacement;        ///< u, m
@@ -25,8 +25,8 @@ struct Particles {
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 };
 
-/// Grid functions at the particles: for each particle the first function that is not zero there, and the values and
-/// gradients (1/m) of the degree + 1 functions from that one on.
+/// Grid functions at the particles: for each particle the first function that is not zero there, and the
+/// values and gradients (1/m) of the degree + 1 functions from that one on.
 struct BasisAtParticles {
   std::vector<std::int32_t> first;
   std::vector<double> values;
@@ -56,8 +56,8 @@ struct State {
 
   numerics::SplineSpace grid;
   Ends ends;
-  double total_mass = 0.0;      ///< kg/m²
-  double left_boundary = 0.0;   ///< of the material, m
+  double total_mass = 0.0;     ///< kg/m²
+  double left_boundary = 0.0;  ///< of the material, m
   double right_boundary = 0.0;
 
   Particles particles;
@@ -66,8 +66,9 @@ struct State {
   Balance balance;
 };
 
-/// The state of a scene at t = 0: particles at (2i − 1)/(2k) of each cell with equal volumes, initial velocity, no stress;
-/// the grid reaches `margin_cells` beyond each free end. Allocates every array a step needs.
+/// The state of a scene at t = 0: particles at (2i − 1)/(2k) of each cell with equal volumes, initial
+/// velocity, no stress; the grid reaches `margin_cells` beyond each free end. Allocates every array a step
+/// needs.
 State initial_state(const Scene& scene);
 
 }  // namespace hompm

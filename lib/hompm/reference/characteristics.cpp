@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <hompm/error.hpp>
+#include <hompm/number.hpp>
 #include <hompm/numerics/elementary.hpp>
-#include <hompm/output/number.hpp>
 #include <hompm/reference/characteristics.hpp>
 
 namespace hompm {

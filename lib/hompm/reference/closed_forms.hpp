@@ -15,7 +15,7 @@ struct LinearBody {
 };
 
 /// Free vibration between fixed ends from v(X, 0) = amplitude sin(kπX/L), k the mode (amplitude in m/s):
-/// u = amplitude/ω sin(ωt) sin(kπX/L), ω = kπc/L. `time` in s, `X` in m. (Tielen et al. 2017, section 4.1.)
+/// u = amplitude/ω sin(ωt) sin(kπX/L), ω = kπc/L. `time` in s, `X` in m. (Tielen et al. 2017.)
 ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode, double time,
                               std::span<const double> X);
 

@@ -8,8 +8,8 @@
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 
 #include <hompm/materials/material.hpp>
+#include <hompm/number.hpp>
 #include <hompm/numerics/elementary.hpp>
-#include <hompm/output/number.hpp>
 #include <hompm/reference/lobatto.hpp>
 #include <hompm/reference/method_of_lines.hpp>
 
@@ -37,23 +37,17 @@ class Lines {
         state_(2 * nodes_),
         stress_(degree_ + 1) {
     for (double& entry : gradient_) entry *= 2.0 / width_;
-    const std::size_t n = degree_ + 1;
+    const InitialVelocity initial = scene.initial_velocity.value_or(InitialVelocity{});
     for (std::size_t e = 0; e < elements_; ++e) {
-      for (std::size_t i = 0; i < n; ++i) {
-        inverse_mass_[e * degree_ + i] += 0.5 * width_ * density_ * rule_.weights[i];
+      for (std::size_t i = 0; i <= degree_; ++i) {
+        const std::size_t node = e * degree_ + i;
+        const double place =
+            (static_cast<double>(e) + 0.5 * (1.0 + rule_.nodes[i])) / static_cast<double>(elements_);
+        state_[nodes_ + node] = initial.amplitude * numerics::sin_pi(initial.mode * place);
+        inverse_mass_[node] += 0.5 * width_ * density_ * rule_.weights[i];
       }
     }
     for (double& entry : inverse_mass_) entry = 1.0 / entry;
-    if (scene.initial_velocity) {
-      const InitialVelocity& initial = *scene.initial_velocity;
-      for (std::size_t e = 0; e < elements_; ++e) {
-        for (std::size_t i = 0; i < n; ++i) {
-          const double position =
-              (static_cast<double>(e) + 0.5 * (1.0 + rule_.nodes[i])) / static_cast<double>(elements_);
-          state_[nodes_ + e * degree_ + i] = initial.amplitude * numerics::sin_pi(initial.mode * position);
-        }
-      }
-    }
   }
 
   /// The right-hand side, as odeint calls it.
@@ -100,7 +94,7 @@ class Lines {
       time_ = steps > 1.0 ? time_ + step : time;
       if (!valid_) {
         throw Error("no smooth reference solution exists beyond t = " + to_text(time_) +
-                    " s: the material turns inside out");
+                    " s: the material turns inside out or gives way");
       }
     }
   }
@@ -162,7 +156,7 @@ Resolution suitable_resolution(const Scene& scene, const Loads& loads) {
   const bool smooth =
       scene.ends.left == End::fixed && scene.ends.right == End::fixed && loads.acceleration == 0.0;
   const int mode = scene.initial_velocity ? std::max(scene.initial_velocity->mode, 1) : 1;
-  return smooth ? Resolution{8 + 8 * mode, 12, 0.5} : Resolution{std::max(96, 8 * mode), 4, 1.0};
+  return smooth ? Resolution{8 + 8 * mode, 12, 0.25} : Resolution{std::max(96, 8 * mode), 4, 1.0};
 }
 
 FieldsAt method_of_lines(const Scene& scene, const Loads& loads, const Resolution& resolution) {

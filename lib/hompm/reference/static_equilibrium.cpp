@@ -4,8 +4,8 @@
 
 #include <hompm/error.hpp>
 #include <hompm/materials/material.hpp>
+#include <hompm/number.hpp>
 #include <hompm/numerics/gauss_legendre.hpp>
-#include <hompm/output/number.hpp>
 #include <hompm/reference/static_equilibrium.hpp>
 
 namespace hompm {

@@ -8,9 +8,8 @@ namespace hompm {
 
 /// Equilibrium of a body fixed at X = 0 and free at X = L, under loads.acceleration and loads.right_stress:
 /// from ∂σ/∂X + ρ0 b = 0 the stress is σ = σ_L + ρ0 b (L − X), the law gives λ(σ), and u = ∫ (λ − 1) dX by
-/// Gauss–Legendre quadrature, to rounding (docs/method.md). Law `rate`, in closed form: Tielen et al. (2017)
-/// with a = ρ0 g/E, x = (1/a) ln[(1 + aL)/(1 + a(L − X))]. `X` in m, ascending. Throws `Error` where the law
-/// cannot carry the stress.
+/// Gauss–Legendre quadrature, to rounding (derived in docs/method.md, with the closed form for the law
+/// `rate`). `X` in m, ascending. Throws `Error` where the law cannot carry the stress.
 ReferenceFields static_equilibrium(const Scene& scene, const Loads& loads, std::span<const double> X);
 
 }  // namespace hompm

@@ -54,9 +54,9 @@ struct EffectSpec {
 struct SchemeSpec {
   std::string name;
   int degree = 0;
-  int cells = 0;               ///< over the body's length
+  int cells = 0;  ///< over the body's length
   int particles_per_cell = 0;
-  int margin_cells = 0;        ///< grid cells beyond each free end
+  int margin_cells = 0;                 ///< grid cells beyond each free end
   std::optional<double> time_step;      ///< s
   std::optional<double> courant;        ///< c Δt / h
   std::optional<double> step_fraction;  ///< Δt over the critical step of the scheme

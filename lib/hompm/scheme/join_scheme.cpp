@@ -1,7 +1,6 @@
-#include <hompm/scheme/join_scheme.hpp>
-
 #include <memory>
 
+#include <hompm/scheme/join_scheme.hpp>
 #include <hompm/scheme/motion.hpp>
 #include <hompm/scheme/reconstruction.hpp>
 
@@ -23,7 +22,8 @@ void find_boundaries(State& state) {
 /// a_i = f_i / M_i; functions with no mass are inactive, and at a fixed end the reaction balances the force.
 void accelerate_grid(State& state) {
   GridFields& g = state.fields;
-  for (std::size_t i = 0; i < g.mass.size(); ++i) g.acceleration[i] = g.mass[i] > 0.0 ? g.force[i] / g.mass[i] : 0.0;
+  for (std::size_t i = 0; i < g.mass.size(); ++i)
+    g.acceleration[i] = g.mass[i] > 0.0 ? g.force[i] / g.mass[i] : 0.0;
   const auto fix = [&](std::size_t i) {
     g.acceleration[i] = 0.0;
     state.balance.impulse -= state.time_step * g.force[i];
@@ -33,18 +33,22 @@ void accelerate_grid(State& state) {
 }
 
 template <int P>
-void join_geometry(const Scheme& scheme, PlanBuilder& builder, const std::shared_ptr<Reconstruction<P>>& splines) {
+void join_geometry(const Scheme& scheme, PlanBuilder& builder,
+                   const std::shared_ptr<Reconstruction<P>>& splines) {
   const Ends& ends = builder.scene.ends;
   if (ends.left == End::free || ends.right == End::free)
     builder.add(Phase::geometry, "material boundary at free ends", find_boundaries);
   builder.add(Phase::geometry, "basis at the particles", detail::evaluate_basis<P>);
   builder.add(Phase::geometry, "lumped mass", [](State& state) {
     std::fill(state.fields.mass.begin(), state.fields.mass.end(), 0.0);
-    scatter<P>(state, state.basis.values, state.fields.mass, [&](std::size_t p) { return state.particles.mass[p]; });
+    scatter<P>(state, state.basis.values, state.fields.mass,
+               [&](std::size_t p) { return state.particles.mass[p]; });
   });
   if (scheme.quadrature == Quadrature::reconstructed)
-    builder.add(Phase::geometry, "spline sites and Gauss points", [splines](State& state) { splines->update_sites(state); },
-                "per particle: spline matrix; per Gauss point: position, weight, basis, data weights");
+    builder.add(
+        Phase::geometry, "spline sites and Gauss points",
+        [splines](State& state) { splines->update_sites(state); },
+        "per particle: spline matrix; per Gauss point: position, weight, basis, data weights");
   if (scheme.velocity_mass == MassForm::consistent)
     builder.add(
         Phase::geometry, "density and consistent mass",
@@ -56,10 +60,12 @@ void join_geometry(const Scheme& scheme, PlanBuilder& builder, const std::shared
 }
 
 template <int P>
-void join_forces(const Scheme& scheme, PlanBuilder& builder, const std::shared_ptr<Reconstruction<P>>& splines) {
+void join_forces(const Scheme& scheme, PlanBuilder& builder,
+                 const std::shared_ptr<Reconstruction<P>>& splines) {
   if (scheme.quadrature == Quadrature::reconstructed) {
-    builder.add(Phase::internal_force, "internal force from the stress spline",
-                [splines](State& state) { splines->internal_force(state); }, "per particle: second derivatives");
+    builder.add(
+        Phase::internal_force, "internal force from the stress spline",
+        [splines](State& state) { splines->internal_force(state); }, "per particle: second derivatives");
   } else {
     builder.add(Phase::internal_force, "internal force from the particles", [](State& state) {
       auto& force = state.fields.internal_force;
@@ -76,12 +82,14 @@ void join_forces(const Scheme& scheme, PlanBuilder& builder, const std::shared_p
 }
 
 template <int P>
-void join_velocity(const Scheme& scheme, PlanBuilder& builder, const std::shared_ptr<Reconstruction<P>>& splines) {
+void join_velocity(const Scheme& scheme, PlanBuilder& builder,
+                   const std::shared_ptr<Reconstruction<P>>& splines) {
   builder.add(Phase::acceleration, "grid acceleration, lumped mass", accelerate_grid);
   builder.add(Phase::acceleration, "particle velocity (FLIP)", [](State& state) {
     Particles& particles = state.particles;
     for (std::size_t p = 0; p < particles.size(); ++p)
-      particles.velocity[p] += state.time_step * gather<P>(state, state.basis.values, state.fields.acceleration, p);
+      particles.velocity[p] +=
+          state.time_step * gather<P>(state, state.basis.values, state.fields.acceleration, p);
   });
   if (scheme.velocity_mass == MassForm::consistent) {
     builder.add(Phase::velocity, "grid velocity, consistent mass",
@@ -93,7 +101,8 @@ void join_velocity(const Scheme& scheme, PlanBuilder& builder, const std::shared
       const Particles& particles = state.particles;
       scatter<P>(state, state.basis.values, g.velocity,
                  [&](std::size_t p) { return particles.mass[p] * particles.velocity[p]; });
-      for (std::size_t i = 0; i < g.velocity.size(); ++i) g.velocity[i] = g.mass[i] > 0.0 ? g.velocity[i] / g.mass[i] : 0.0;
+      for (std::size_t i = 0; i < g.velocity.size(); ++i)
+        g.velocity[i] = g.mass[i] > 0.0 ? g.velocity[i] / g.mass[i] : 0.0;
       if (state.ends.left == End::fixed) g.velocity.front() = 0.0;
       if (state.ends.right == End::fixed) g.velocity.back() = 0.0;
     });
@@ -112,7 +121,8 @@ void join_motion(const Material& material, PlanBuilder& builder) {
 
 template <int P>
 void join(const Scheme& scheme, const Material& material, PlanBuilder& builder) {
-  const bool reconstructs = scheme.quadrature == Quadrature::reconstructed || scheme.velocity_mass == MassForm::consistent;
+  const bool reconstructs =
+      scheme.quadrature == Quadrature::reconstructed || scheme.velocity_mass == MassForm::consistent;
   const auto splines = reconstructs ? std::make_shared<Reconstruction<P>>(builder.state) : nullptr;
   join_geometry<P>(scheme, builder, splines);
   join_forces<P>(scheme, builder, splines);
@@ -121,19 +131,26 @@ void join(const Scheme& scheme, const Material& material, PlanBuilder& builder) 
   const bool increments = scheme.stress_update == StressUpdate::incremental;
   if (moves && increments) join_motion<P, Kinematics::finite, StressUpdate::incremental>(material, builder);
   if (moves && !increments) join_motion<P, Kinematics::finite, StressUpdate::from_stretch>(material, builder);
-  if (!moves && increments) join_motion<P, Kinematics::infinitesimal, StressUpdate::incremental>(material, builder);
-  if (!moves && !increments) join_motion<P, Kinematics::infinitesimal, StressUpdate::from_stretch>(material, builder);
+  if (!moves && increments)
+    join_motion<P, Kinematics::infinitesimal, StressUpdate::incremental>(material, builder);
+  if (!moves && !increments)
+    join_motion<P, Kinematics::infinitesimal, StressUpdate::from_stretch>(material, builder);
 }
 
 }  // namespace
 
 void join_scheme(const Scheme& scheme, const Material& material, PlanBuilder& builder) {
   switch (builder.scene.scheme.degree) {
-    case 1: return join<1>(scheme, material, builder);
-    case 2: return join<2>(scheme, material, builder);
-    case 3: return join<3>(scheme, material, builder);
-    case 4: return join<4>(scheme, material, builder);
-    default: return join<5>(scheme, material, builder);
+    case 1:
+      return join<1>(scheme, material, builder);
+    case 2:
+      return join<2>(scheme, material, builder);
+    case 3:
+      return join<3>(scheme, material, builder);
+    case 4:
+      return join<4>(scheme, material, builder);
+    default:
+      return join<5>(scheme, material, builder);
   }
 }
 

@@ -8,8 +8,8 @@ namespace hompm::detail {
 
 /// u += Δt Σ N_i v_i and dε = Δt Σ dN_i/dx v_i for every particle, then stretch, volume and stress:
 /// finite kinematics λ ← λ (1 + dε), V = V0 λ, x = X + u; infinitesimal λ ← λ + dε, nothing moves.
-/// Stress by the increment of the law or from the stretch (method: Tielen et al. 2017, section 3; docs/method.md).
-/// Throws `InvalidRun` when a stretch is not above zero.
+/// Stress by the increment of the law or from the stretch (method: Tielen et al. 2017, section 3;
+/// docs/method.md). Throws `InvalidRun` when a stretch is not above zero.
 template <int P, Kinematics kinematics, StressUpdate update, class Law>
 void move_particles(State& state, const Law& law) {
   Particles& p = state.particles;
@@ -17,7 +17,8 @@ void move_particles(State& state, const Law& law) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double strain = dt * gather<P>(state, state.basis.gradients, state.fields.velocity, i);
     p.displacement[i] += dt * gather<P>(state, state.basis.values, state.fields.velocity, i);
-    if constexpr (update == StressUpdate::incremental) p.stress[i] += law.modulus(p.stress[i], p.stretch[i]) * strain;
+    if constexpr (update == StressUpdate::incremental)
+      p.stress[i] += law.modulus(p.stress[i], p.stretch[i]) * strain;
     if constexpr (kinematics == Kinematics::finite) {
       p.stretch[i] *= 1.0 + strain;
       if (!(p.stretch[i] > 0.0)) throw_inverted(state, i, p.stretch[i]);

@@ -20,10 +20,11 @@ void evaluate_basis(State& state) {
   }
 }
 
-/// `target_i += Σ_p amount(p) w_i(x_p)`, with w the values or gradients of the basis at the particles. Sums run in the order
-/// of the particles, so the bits are reproducible.
+/// `target_i += Σ_p amount(p) w_i(x_p)`, with w the values or gradients of the basis at the particles. Sums
+/// run in the order of the particles, so the bits are reproducible.
 template <int P, class Amount>
-void scatter(const State& state, const std::vector<double>& weights, std::vector<double>& target, Amount amount) {
+void scatter(const State& state, const std::vector<double>& weights, std::vector<double>& target,
+             Amount amount) {
   const std::size_t count = state.particles.size();
   for (std::size_t p = 0; p < count; ++p) {
     const double a = amount(p);
@@ -35,7 +36,8 @@ void scatter(const State& state, const std::vector<double>& weights, std::vector
 
 /// Σ_i w_i(x_p) field_i for one particle.
 template <int P>
-double gather(const State& state, const std::vector<double>& weights, const std::vector<double>& field, std::size_t p) {
+double gather(const State& state, const std::vector<double>& weights, const std::vector<double>& field,
+              std::size_t p) {
   const double* w = &weights[p * (P + 1)];
   const double* f = &field[static_cast<std::size_t>(state.basis.first[p])];
   double sum = w[0] * f[0];

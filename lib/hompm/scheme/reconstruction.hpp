@@ -1,4 +1,5 @@
-// Reconstruction of particle data as cubic splines, and the grid integrals of the splines (Tielen et al. 2017, section 3).
+// Reconstruction of particle data as cubic splines, and the grid integrals of the splines (Tielen et al.
+// 2017, section 3).
 #pragma once
 
 #include <cmath>
@@ -11,14 +12,18 @@
 
 namespace hompm::detail {
 
-/// One factorisation of the spline matrix serves stress, density and velocity of a step, and so do the weights of the
-/// particle data at the Gauss points. All memory is taken by the constructor.
+/// One factorisation of the spline matrix serves stress, density and velocity of a step, and so do the
+/// weights of the particle data at the Gauss points. All memory is taken by the constructor.
 template <int P>
 class Reconstruction {
  public:
   explicit Reconstruction(const State& state)
-      : splines_(state.particles.size()), gauss_(state.grid), weights_(gauss_.capacity()),
-        mass_weight_(gauss_.capacity()), data_(state.particles.size()), second_derivatives_(state.particles.size()),
+      : splines_(state.particles.size()),
+        gauss_(state.grid),
+        weights_(gauss_.capacity()),
+        mass_weight_(gauss_.capacity()),
+        data_(state.particles.size()),
+        second_derivatives_(state.particles.size()),
         mass_(static_cast<std::size_t>(state.grid.functions())) {}
 
   /// Splines and Gauss points for the present positions. Throws `InvalidRun` for particles out of order.
@@ -32,7 +37,8 @@ class Reconstruction {
     }
   }
 
-  /// ρ(x_g) w_g from the spline through the particle densities m/V. Throws `InvalidRun` where the spline is not positive.
+  /// ρ(x_g) w_g from the spline through the particle densities m/V. Throws `InvalidRun` where the spline is
+  /// not positive.
   void update_density(const State& state) {
     const Particles& p = state.particles;
     for (std::size_t i = 0; i < data_.size(); ++i) data_[i] = p.mass[i] / p.volume[i];
@@ -44,7 +50,8 @@ class Reconstruction {
     }
   }
 
-  /// M_ij = Σ_g w_g ρ N_i N_j, factorised for the functions that touch material and no essential condition fixes.
+  /// M_ij = Σ_g w_g ρ N_i N_j, factorised for the functions that touch material and no essential condition
+  /// fixes.
   void update_consistent_mass(const State& state) {
     find_active(state);
     mass_.clear();
@@ -70,11 +77,12 @@ class Reconstruction {
     splines_.second_derivatives(state.particles.stress, second_derivatives_);
     auto& force = state.fields.internal_force;
     std::fill(force.begin(), force.end(), 0.0);
-    add_integrals(force, [&](std::size_t g) { return gauss_.gradients(g); },
-                  [&](std::size_t g) {
-                    return gauss_.weight(g) *
-                           splines_.evaluate(weights_[g], state.particles.stress, second_derivatives_);
-                  });
+    add_integrals(
+        force, [&](std::size_t g) { return gauss_.gradients(g); },
+        [&](std::size_t g) {
+          return gauss_.weight(g) *
+                 splines_.evaluate(weights_[g], state.particles.stress, second_derivatives_);
+        });
   }
 
   /// Grid velocity from Σ_j M_ij v_j = Σ_g w_g ρ v(x_g) N_i(x_g).
@@ -82,11 +90,12 @@ class Reconstruction {
     splines_.second_derivatives(state.particles.velocity, second_derivatives_);
     auto& velocity = state.fields.velocity;
     std::fill(velocity.begin(), velocity.end(), 0.0);
-    add_integrals(velocity, [&](std::size_t g) { return gauss_.values(g); },
-                  [&](std::size_t g) {
-                    return mass_weight_[g] *
-                           splines_.evaluate(weights_[g], state.particles.velocity, second_derivatives_);
-                  });
+    add_integrals(
+        velocity, [&](std::size_t g) { return gauss_.values(g); },
+        [&](std::size_t g) {
+          return mass_weight_[g] *
+                 splines_.evaluate(weights_[g], state.particles.velocity, second_derivatives_);
+        });
     std::fill_n(velocity.begin(), active_begin_, 0.0);
     std::fill(velocity.begin() + static_cast<std::ptrdiff_t>(active_end_), velocity.end(), 0.0);
     mass_.solve(active_begin_, active_end_, velocity);
@@ -112,8 +121,8 @@ class Reconstruction {
     }
   }
 
-  /// All functions that touch material but those fixed. One that no particle sees yet is among them: without it the
-  /// functions there would not sum to one, and uniform motion would not be kept.
+  /// All functions that touch material but those fixed. One that no particle sees yet is among them: without
+  /// it the functions there would not sum to one, and uniform motion would not be kept.
   void find_active(const State& state) {
     active_begin_ = static_cast<std::size_t>(gauss_.first_cell());
     active_end_ = static_cast<std::size_t>(gauss_.last_cell()) + P + 1;

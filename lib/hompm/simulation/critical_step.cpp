@@ -1,8 +1,7 @@
-#include <hompm/simulation/critical_step.hpp>
-
 #include <cmath>
 #include <cstdint>
 
+#include <hompm/simulation/critical_step.hpp>
 #include <hompm/simulation/simulation.hpp>
 
 namespace hompm {
@@ -14,7 +13,8 @@ double norm(const std::vector<double>& v) {
   return std::sqrt(sum);
 }
 
-/// A start with a part along every mode: a fixed pseudo-random sequence (Numerical Recipes' linear congruential generator).
+/// A start with a part along every mode: a fixed pseudo-random sequence (Numerical Recipes' linear
+/// congruential generator).
 std::vector<double> scattered(std::size_t count) {
   std::vector<double> v(count);
   std::uint32_t seed = 1;
@@ -42,7 +42,8 @@ double critical_time_step(const Scene& scene) {
     const double length = norm(stress);
     for (double& s : stress) s /= length;
     p.stress = stress;
-    for (std::size_t i = 0; i < p.size(); ++i) p.stretch[i] = 1.0 + stress[i] / linear.material.youngs_modulus;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p.stretch[i] = 1.0 + stress[i] / linear.material.youngs_modulus;
     std::fill(p.velocity.begin(), p.velocity.end(), 0.0);
     simulation.step();
     for (std::size_t i = 0; i < p.size(); ++i) stress[i] = p.stress[i] - stress[i];

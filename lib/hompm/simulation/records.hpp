@@ -7,33 +7,34 @@ namespace hompm {
 
 /// All particle fields at one time. All vectors have one entry per particle, ordered by reference position.
 struct Snapshot {
-  double time = 0.0;                        ///< s
-  std::vector<double> reference_position;   ///< X, m
-  std::vector<double> position;             ///< x, m
-  std::vector<double> displacement;         ///< u = x − X, m
-  std::vector<double> velocity;             ///< m/s, at `time`
-  std::vector<double> volume;               ///< m (unit cross-section)
-  std::vector<double> density;              ///< kg/m³
-  std::vector<double> stress;               ///< Cauchy stress, tension positive, Pa
-  std::vector<double> stretch;              ///< λ = ∂x/∂X
+  double time = 0.0;                       ///< s
+  std::vector<double> reference_position;  ///< X, m
+  std::vector<double> position;            ///< x, m
+  std::vector<double> displacement;        ///< u = x − X, m
+  std::vector<double> velocity;            ///< m/s, at `time`
+  std::vector<double> volume;              ///< m (unit cross-section)
+  std::vector<double> density;             ///< kg/m³
+  std::vector<double> stress;              ///< Cauchy stress, tension positive, Pa
+  std::vector<double> stretch;             ///< λ = ∂x/∂X
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
 /// Energies in J/m², momenta in kg/(m s), mass in kg/m² (unit cross-section).
 struct HistoryRow {
-  double time = 0.0;               ///< s
-  double kinetic = 0.0;            ///< ½ Σ m v²
-  double stored = 0.0;             ///< Σ V0 ψ(λ)
-  double gravity = 0.0;            ///< potential energy in the gravity field, zero at the start
-  double dissipated = 0.0;         ///< by damping, since the start
-  double external_work = 0.0;      ///< by tractions, since the start
-  double residual = 0.0;           ///< kinetic + stored + gravity + dissipated − external_work − their sum at the start
-  double momentum = 0.0;           ///< Σ m v
-  double impulse = 0.0;            ///< of gravity, tractions, damping and the reactions at fixed ends, since the start
-  double momentum_residual = 0.0;  ///< momentum − momentum at the start − impulse
-  double mass = 0.0;               ///< Σ m
-  double internal_force_sum = 0.0; ///< |Σ f_int| / Σ |f_int| over the grid functions
+  double time = 0.0;           ///< s
+  double kinetic = 0.0;        ///< ½ Σ m v²
+  double stored = 0.0;         ///< Σ V0 ψ(λ)
+  double gravity = 0.0;        ///< potential energy in the gravity field, zero at the start
+  double dissipated = 0.0;     ///< by damping, since the start
+  double external_work = 0.0;  ///< by tractions, since the start
+  double residual =
+      0.0;  ///< kinetic + stored + gravity + dissipated − external_work − their sum at the start
+  double momentum = 0.0;  ///< Σ m v
+  double impulse = 0.0;   ///< of gravity, tractions, damping and the reactions at fixed ends, since the start
+  double momentum_residual = 0.0;   ///< momentum − momentum at the start − impulse
+  double mass = 0.0;                ///< Σ m
+  double internal_force_sum = 0.0;  ///< |Σ f_int| / Σ |f_int| over the grid functions
 };
 
 }  // namespace hompm

@@ -1,24 +1,24 @@
-#include <hompm/simulation/run.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include <hompm/error.hpp>
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
+#include <hompm/numerics/floating_point.hpp>
+#include <hompm/simulation/run.hpp>
 
 namespace hompm {
 namespace {
 
-/// True after `step` steps if one of `count` outputs, evenly spaced over `steps`, is due: output k comes after the whole
-/// number of steps nearest to k steps/count.
+/// True after `step` steps if one of `count` outputs, evenly spaced over `steps`, is due: output k comes
+/// after the whole number of steps nearest to k steps/count.
 bool is_due(std::int64_t step, std::int64_t steps, std::int64_t count) {
   const std::int64_t k = (step * count + steps / 2) / steps;
   return k >= 1 && (2 * k * steps + count) / (2 * count) == step;
 }
 
-/// Tells when the grid velocity has not passed the scene's `rest.speed` for the time a wave takes there and back. The grid's
-/// and not the particles': what a particle's velocity has beyond the grid's moves nothing.
+/// Tells when the grid velocity has not passed the scene's `rest.speed` for the time a wave takes there and
+/// back. The grid's and not the particles': what a particle's velocity has beyond the grid's moves nothing.
 class RestWatch {
  public:
   RestWatch(const Scene& scene, double time_step) : speed_(scene.rest->speed) {
@@ -46,11 +46,14 @@ class EnergyGuard {
   void check(const HistoryRow& row, std::int64_t step) {
     supplied_ = std::max({supplied_, std::abs(row.gravity), std::abs(row.external_work)});
     const double energy = row.kinetic + row.stored;
-    // Ten times leaves room for every error of a stable scheme; an unstable one passes it within a few dozen steps.
+    // Ten times leaves room for every error of a stable scheme; an unstable one passes it within a few dozen
+    // steps.
     if (energy <= 10.0 * (start_ + supplied_)) return;
-    std::string reason = "unstable: energy " + (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
+    std::string reason = "unstable: energy " +
+                         (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
                          " J/m^2, the start and the loads supplied " + to_text(start_ + supplied_);
-    reason += "; the time step is " + to_text(stepping_.time_step / stepping_.critical_time_step) + " of the critical one";
+    reason += "; the time step is " + to_text(stepping_.time_step / stepping_.critical_time_step) +
+              " of the critical one";
     throw InvalidRun(step, row.time, -1, reason);
   }
 
@@ -72,6 +75,7 @@ void accumulate(RunResult& result, const HistoryRow& row) {
 }  // namespace
 
 RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserver& observer) {
+  numerics::check_floating_point();
   Simulation simulation(scene, stepping.time_step);
   RunResult result;
   result.start = result.end = simulation.history(0.0);
@@ -88,17 +92,17 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     result.steps = step;
     result.at_rest = rest && rest->at_rest(simulation.state().fields.velocity);
     const bool last = step == stepping.steps || result.at_rest;
-    const double time = stepping.time(step, scene.end_time);
-    if (last || is_due(step, stepping.steps, scene.output.history)) {
+    const bool row_due = last || is_due(step, stepping.steps, scene.output.history);
+    const bool snapshot_due = last || is_due(step, stepping.steps, scene.output.snapshots);
+    if (row_due || snapshot_due) {
+      const double time = stepping.time(step, scene.end_time);
       result.end = simulation.history(time);
-      guard.check(result.end, step);
+      guard.check(result.end, step);  // before anything is reported
       accumulate(result, result.end);
-      if (observer.history) observer.history(result.end);
-    }
-    if (last) result.final = simulation.snapshot(time);
-    if (observer.snapshot) {
-      if (last) observer.snapshot(result.final);
-      else if (is_due(step, stepping.steps, scene.output.snapshots)) observer.snapshot(simulation.snapshot(time));
+      if (row_due && observer.history) observer.history(result.end);
+      if (last) result.final = simulation.snapshot(time);
+      if (snapshot_due && observer.snapshot)
+        observer.snapshot(last ? result.final : simulation.snapshot(time));
     }
     if (observer.progress) observer.progress(step, stepping.steps);
   }

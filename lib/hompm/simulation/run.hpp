@@ -29,9 +29,10 @@ struct RunResult {
   Snapshot final;
 };
 
-/// Runs a scene with the given stepping. The start is reported first, then `scene.output.snapshots` snapshots and
-/// `scene.output.history` rows evenly over the steps. Throws `SceneError` when scene and scheme do not go together, and
-/// `InvalidRun` when the run becomes invalid: what was reported before is valid.
+/// Runs a scene with the given stepping. The start is reported first, then `scene.output.snapshots` snapshots
+/// and `scene.output.history` rows evenly over the steps. Throws `SceneError` when scene and scheme do not go
+/// together, and `InvalidRun` when the run becomes invalid: what was reported before is valid. Throws `Error`
+/// on a machine or build whose arithmetic is not IEEE 754 (numerics/floating_point.hpp).
 RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserver& observer = {});
 
 }  // namespace hompm

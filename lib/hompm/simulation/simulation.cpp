@@ -1,20 +1,21 @@
-#include <hompm/simulation/simulation.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/scheme/join_scheme.hpp>
+#include <hompm/simulation/simulation.hpp>
 
 namespace hompm {
 namespace {
 
-constexpr std::array step_phases{Phase::internal_force, Phase::external_force, Phase::damping_force, Phase::acceleration,
-                                 Phase::velocity,       Phase::work,           Phase::motion};
+constexpr std::array step_phases{Phase::internal_force, Phase::external_force, Phase::damping_force,
+                                 Phase::acceleration,   Phase::velocity,       Phase::work,
+                                 Phase::motion};
 
 void check_particle_count(const Scene& scene, const Scheme& scheme) {
-  if (scheme.quadrature == Quadrature::particles || scene.scheme.cells * scene.scheme.particles_per_cell >= 2) return;
+  if (scheme.quadrature == Quadrature::particles || scene.scheme.cells * scene.scheme.particles_per_cell >= 2)
+    return;
   throw SceneError(Origin{"scheme.particles_per_cell"},
                    "1 particle in all: " + scheme.name + " reconstructs fields from at least 2");
 }
@@ -29,7 +30,8 @@ Plan make_plan(const Scene& scene, const State& state) {
   join_scheme(scheme, make_material(scene.material), builder);
   for (const EffectSpec& spec : scene.effects) {
     const auto& catalogue = effect_catalogue();
-    const auto type = std::find_if(catalogue.begin(), catalogue.end(), [&](const auto& t) { return t.name == spec.type; });
+    const auto type =
+        std::find_if(catalogue.begin(), catalogue.end(), [&](const auto& t) { return t.name == spec.type; });
     if (type == catalogue.end()) throw SceneError(spec.origin, "there is no effect " + spec.type);
     builder.called_by = "effect " + spec.type + " (" + spec.origin.text() + ")";
     type->join(spec, builder);
@@ -38,8 +40,10 @@ Plan make_plan(const Scene& scene, const State& state) {
 }
 
 Simulation::Simulation(const Scene& scene, double time_step)
-    : material_(make_material(scene.material)), moves_(scene.kinematics == Kinematics::finite),
-      state_(initial_state(scene)), plan_(make_plan(scene, state_)) {
+    : material_(make_material(scene.material)),
+      moves_(scene.kinematics == Kinematics::finite),
+      state_(initial_state(scene)),
+      plan_(make_plan(scene, state_)) {
   state_.time_step = time_step;
   plan_.run(Phase::geometry, state_);
   plan_.run(Phase::internal_force, state_);
@@ -80,7 +84,8 @@ double Simulation::total_energy(const HistoryRow& row) const {
 
 HistoryRow Simulation::history(double time) const {
   const Particles& p = state_.particles;
-  HistoryRow row{.time = time, .dissipated = state_.balance.dissipated, .external_work = state_.balance.external_work};
+  HistoryRow row{
+      .time = time, .dissipated = state_.balance.dissipated, .external_work = state_.balance.external_work};
   for (std::size_t i = 0; i < p.size(); ++i) {
     row.mass += p.mass[i];
     row.momentum += p.mass[i] * p.velocity[i];
@@ -88,7 +93,8 @@ HistoryRow Simulation::history(double time) const {
   }
   std::visit(
       [&](const auto& law) {
-        for (std::size_t i = 0; i < p.size(); ++i) row.stored += p.reference_volume[i] * law.stored_energy(p.stretch[i]);
+        for (std::size_t i = 0; i < p.size(); ++i)
+          row.stored += p.reference_volume[i] * law.stored_energy(p.stretch[i]);
       },
       material_);
   for (const auto& potential : plan_.potentials) row.gravity += potential(state_);

@@ -12,7 +12,8 @@ Plan make_plan(const Scene& scene, const State& state);
 
 class Simulation {
  public:
-  /// State and plan at t = 0, with steps of `time_step` (s). Throws `SceneError` when scene and scheme do not go together.
+  /// State and plan at t = 0, with steps of `time_step` (s). Throws `SceneError` when scene and scheme do not
+  /// go together.
   Simulation(const Scene& scene, double time_step);
 
   /// One time step. Throws `InvalidRun` when it cannot be carried out; the state is then of no use.

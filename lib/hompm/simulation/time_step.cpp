@@ -1,10 +1,9 @@
-#include <hompm/simulation/time_step.hpp>
-
 #include <cmath>
 #include <string>
 
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
 #include <hompm/simulation/critical_step.hpp>
+#include <hompm/simulation/time_step.hpp>
 
 namespace hompm {
 namespace {
@@ -33,13 +32,15 @@ TimeStepping time_stepping(const Scene& scene) {
   result.critical_time_step = critical_time_step(scene);
   const double asked = asked_step(scene, result.critical_time_step);
   if (asked > result.critical_time_step && !scene.scheme.allow_unstable)
-    throw SceneError(origin, key + ": a time step of " + to_text(asked) + " s is above the critical step of " +
-                                 scene.scheme.name + " here, " + to_text(result.critical_time_step) +
+    throw SceneError(origin, key + ": a time step of " + to_text(asked) +
+                                 " s is above the critical step of " + scene.scheme.name + " here, " +
+                                 to_text(result.critical_time_step) +
                                  " s (scheme.allow_unstable = true runs it all the same)");
 
   const double count = scene.end_time / asked;
   if (!(count <= 1e10)) throw SceneError(origin, key + ": that is more than 1e10 steps to the end time");
-  // A quotient within rounding of a whole number means that number: the step asked for is then kept to the bit.
+  // A quotient within rounding of a whole number means that number: the step asked for is then kept to the
+  // bit.
   const double nearest = std::floor(count + 0.5);
   const bool whole = nearest >= 1.0 && std::abs(count - nearest) <= 1e-9 * nearest;
   const double steps = whole ? nearest : std::ceil(count);

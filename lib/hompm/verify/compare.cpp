@@ -1,5 +1,3 @@
-#include <hompm/verify/compare.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -9,6 +7,7 @@
 #include <hompm/error.hpp>
 #include <hompm/output/columns.hpp>
 #include <hompm/output/text_file.hpp>
+#include <hompm/verify/compare.hpp>
 #include <hompm/verify/csv_table.hpp>
 #include <hompm/verify/excerpt.hpp>
 #include <hompm/verify/field_judge.hpp>
@@ -29,6 +28,7 @@ struct Table {
 template <class Columns>
 std::vector<std::string> names(const Columns& columns) {
   std::vector<std::string> all;
+  all.reserve(columns.size());
   for (const auto& column : columns) all.emplace_back(column.name);
   return all;
 }
@@ -50,7 +50,8 @@ bool is_there(const fs::path& path) {
 
 void require_folder(const fs::path& path) {
   if (!is_there(path)) throw detail::file_error("read", path, ENOENT);
-  if (!fs::is_directory(path)) throw detail::file_error("read", path, ENOTDIR);
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) throw detail::file_error("read", path, ENOTDIR);
 }
 
 std::vector<Tolerance> tolerances_of(const Table& table, const std::map<std::string, Tolerance>& tolerances) {

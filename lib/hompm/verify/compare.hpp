@@ -19,12 +19,12 @@ enum class Verdict { identical, equivalent, different };
 std::string to_string(Verdict verdict);
 
 /// What is still called equivalent for one field. A value passes when it meets any of the bounds that are set
-/// (> 0).
+/// (> 0). `absolute` bounds |a − b| in the unit of the field, `relative` bounds |a − b| over the largest
+/// magnitude of the field at that time in the second folder, `ulps` bounds `ulp_distance(a, b)`.
 struct Tolerance {
-  double absolute = 0.0;  ///< bound of |a − b|, in the unit of the field
-  double relative =
-      0.0;  ///< bound of |a − b| over the largest magnitude of the field at that time in the second folder
-  std::uint64_t ulps = 0;  ///< bound of `ulp_distance`
+  double absolute = 0.0;
+  double relative = 0.0;
+  std::uint64_t ulps = 0;
 };
 
 /// The place where two values of one field differ.

@@ -1,10 +1,9 @@
-#include <hompm/verify/csv_table.hpp>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 
+#include <hompm/verify/csv_table.hpp>
 #include <hompm/verify/excerpt.hpp>
 
 namespace hompm::detail {

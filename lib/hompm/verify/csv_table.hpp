@@ -22,10 +22,10 @@ struct RowKey {
   double time = 0.0;           ///< s
   std::int64_t particle = -1;  ///< −1 in a table without particles
 
-  friend bool operator==(const RowKey& a, const RowKey& b) { return (a <=> b) == 0; }
+  friend bool operator==(const RowKey& a, const RowKey& b) { return std::is_eq(a <=> b); }
   friend std::strong_ordering operator<=>(const RowKey& a, const RowKey& b) {
     const auto times = ordered_bits(a.time) <=> ordered_bits(b.time);
-    return times != 0 ? times : a.particle <=> b.particle;
+    return std::is_neq(times) ? times : a.particle <=> b.particle;
   }
 };
 

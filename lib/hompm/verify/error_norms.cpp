@@ -1,10 +1,9 @@
-#include <hompm/verify/error_norms.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <hompm/error.hpp>
+#include <hompm/verify/error_norms.hpp>
 
 namespace hompm {
 

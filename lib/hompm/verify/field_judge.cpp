@@ -1,12 +1,12 @@
-#include <hompm/verify/field_judge.hpp>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include <hompm/verify/field_judge.hpp>
+
 namespace hompm::detail {
 
-FieldJudge::FieldJudge(std::string file, std::span<const std::string> fields,
+FieldJudge::FieldJudge(const std::string& file, std::span<const std::string> fields,
                        std::vector<Tolerance> tolerances)
     : fields_(fields.size()), tolerances_(std::move(tolerances)), largest_(fields.size(), 0.0) {
   for (std::size_t i = 0; i < fields.size(); ++i) {

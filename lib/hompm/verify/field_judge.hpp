@@ -14,7 +14,7 @@ namespace hompm::detail {
 class FieldJudge {
  public:
   /// `tolerances[i]` belongs to `fields[i]`; `file` is what results are labelled with.
-  FieldJudge(std::string file, std::span<const std::string> fields, std::vector<Tolerance> tolerances);
+  FieldJudge(const std::string& file, std::span<const std::string> fields, std::vector<Tolerance> tolerances);
 
   /// A value of the second folder at the current time: what a relative tolerance is relative to.
   void measure(std::size_t field, double b);

@@ -1,15 +1,13 @@
-#include <hompm/verify/line_reader.hpp>
-
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
+#include <string>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <string>
-
 #include <hompm/error.hpp>
 #include <hompm/output/text_file.hpp>
+#include <hompm/verify/line_reader.hpp>
 
 namespace hompm::detail {
 namespace {

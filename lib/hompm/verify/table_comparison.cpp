@@ -1,9 +1,8 @@
-#include <hompm/verify/table_comparison.hpp>
-
 #include <cmath>
 #include <utility>
 
-#include <hompm/output/number.hpp>
+#include <hompm/number.hpp>
+#include <hompm/verify/table_comparison.hpp>
 
 namespace hompm::detail {
 namespace {
@@ -112,14 +111,14 @@ class Walk {
       report_order(a_, &b_.key());
       a_.skip();
       pass_b(&Cursor::skip);
-    } else if (a_.is_followed_by(b_.key())) {
-      drop_a();
-    } else if (b_.is_followed_by(a_.key())) {
-      drop_b();
-    } else if (a_.key() < b_.key()) {
-      drop_a();
     } else {
-      drop_b();
+      const bool a_has_more =
+          a_.is_followed_by(b_.key()) || (!b_.is_followed_by(a_.key()) && a_.key() < b_.key());
+      if (a_has_more) {
+        drop_a();
+      } else {
+        drop_b();
+      }
     }
   }
 

@@ -1,10 +1,11 @@
 // Defaults that follow from other keys, and what keys demand of each other.
 #include <algorithm>
 #include <filesystem>
-#include <hompm/scene/keys.hpp>
-#include <hompm/scene/reading.hpp>
-#include <hompm/scheme/scheme.hpp>
 #include <tuple>
+
+#include <hompm/scene_file/keys.hpp>
+#include <hompm/scene_file/reading.hpp>
+#include <hompm/scheme/scheme.hpp>
 
 namespace hompm::detail {
 namespace {

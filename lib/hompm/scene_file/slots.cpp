@@ -1,7 +1,8 @@
 // Values on their way into a Scene and out of it.
 #include <algorithm>
-#include <hompm/scene/keys.hpp>
 #include <limits>
+
+#include <hompm/scene_file/keys.hpp>
 
 namespace hompm::detail {
 namespace {

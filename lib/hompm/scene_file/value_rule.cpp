@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <hompm/output/number.hpp>
-#include <hompm/scene/value_rule.hpp>
+
+#include <hompm/number.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 
 namespace hompm::detail {
 namespace {

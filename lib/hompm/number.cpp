@@ -1,10 +1,9 @@
-#include <hompm/output/number.hpp>
-
 #include <array>
 #include <charconv>
 #include <cmath>
 
 #include <hompm/error.hpp>
+#include <hompm/number.hpp>
 
 namespace hompm {
 

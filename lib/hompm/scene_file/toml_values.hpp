@@ -1,10 +1,11 @@
 // A TOML text as a flat map from dotted path to value, with the place where each was said.
 #pragma once
 
-#include <hompm/error.hpp>
-#include <hompm/scene/content.hpp>
 #include <map>
 #include <string>
+
+#include <hompm/error.hpp>
+#include <hompm/scene_file/content.hpp>
 
 namespace hompm::detail {
 

@@ -5,8 +5,8 @@
 
 namespace hompm {
 
-/// Shortest text that `std::from_chars` reads back to exactly `value` (`std::to_chars`), the same bytes on every
-/// machine. Throws `Error` for a value that is not finite: such a value must never reach a file.
+/// Shortest text that `std::from_chars` reads back to exactly `value` (`std::to_chars`), the same bytes on
+/// every machine. Throws `Error` for a value that is not finite: such a value must never reach a file.
 std::string to_text(double value);
 
 /// Appends `to_text(value)` to `out` without a temporary.

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cctype>
-#include <hompm/scene/reader.hpp>
 #include <numeric>
 #include <utility>
+
+#include <hompm/scene_file/reader.hpp>
 
 namespace hompm {
 namespace {

@@ -1,12 +1,13 @@
 // The stations a scene passes on its way from TOML to a Scene. Each reports what it finds wrong and goes on.
 #pragma once
 
-#include <hompm/scene/reader.hpp>
-#include <hompm/scene/toml_values.hpp>
-#include <hompm/scene/value_rule.hpp>
 #include <set>
 #include <string>
 #include <vector>
+
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/toml_values.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 
 namespace hompm::detail {
 

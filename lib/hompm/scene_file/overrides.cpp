@@ -1,7 +1,8 @@
 // What the command line says in place of the file.
 #include <charconv>
-#include <hompm/scene/reading.hpp>
 #include <optional>
+
+#include <hompm/scene_file/reading.hpp>
 
 namespace hompm::detail {
 namespace {

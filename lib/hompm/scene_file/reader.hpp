@@ -8,8 +8,9 @@
 
 namespace hompm {
 
-/// A key of the scene said on the command line. `value` is TOML text ("64", "1e-4", "\"rate\"") or a bare word, which
-/// is taken as a string. `option` is what an error points at: "--cells 64" or "--set scheme.cells=64".
+/// A key of the scene said on the command line. `value` is TOML text ("64", "1e-4", "\"rate\"") or a bare
+/// word, which is taken as a string. `option` is what an error points at: "--cells 64" or "--set
+/// scheme.cells=64".
 struct Override {
   std::string key;
   std::string value;
@@ -29,16 +30,19 @@ const std::vector<BuiltinScene>& builtin_scenes();
 
 /// The built-in scene `case_name`, `variant` ("" for the default variant) with the overrides applied.
 /// Throws `SceneError` for an unknown name (naming the nearest) or a bad override.
-Scene load_builtin(const std::string& case_name, const std::string& variant, const std::vector<Override>& overrides);
+Scene load_builtin(const std::string& case_name, const std::string& variant,
+                   const std::vector<Override>& overrides);
 
-/// A scene file with the overrides applied. Throws `FileError` when it cannot be read, `SceneError` with *all* problems
-/// of the file otherwise, each with file, line and column, the offending value and the nearest valid one.
+/// A scene file with the overrides applied. Throws `FileError` when it cannot be read, `SceneError` with
+/// *all* problems of the file otherwise, each with file, line and column, the offending value and the nearest
+/// valid one.
 Scene load_scene(const std::string& path, const std::vector<Override>& overrides);
 
 /// A scene from text; `source` names it in messages. Throws as `load_scene`.
 Scene parse_scene(const std::string& text, const std::string& source, const std::vector<Override>& overrides);
 
-/// The resolved scene as TOML, every default written out; reading it gives the same scene, and writing that the same bytes.
+/// The resolved scene as TOML, every default written out; reading it gives the same scene, and writing that
+/// the same bytes.
 std::string scene_text(const Scene& scene);
 
 /// One key a scene file may hold, for the reference documentation and `--list`.

@@ -2,13 +2,14 @@
 // checking, writing and the reference documentation all follow it.
 #pragma once
 
-#include <hompm/scene/scene.hpp>
-#include <hompm/scene/value_rule.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
+
+#include <hompm/scene/scene.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 
 namespace hompm::detail {
 

@@ -1,9 +1,10 @@
-#include <toml++/toml.h>
-
 #include <algorithm>
-#include <hompm/scene/toml_values.hpp>
 #include <optional>
 #include <string_view>
+
+#include <toml++/toml.h>
+
+#include <hompm/scene_file/toml_values.hpp>
 
 namespace hompm::detail {
 namespace {

@@ -1,8 +1,9 @@
 // Names that a scene cannot have, and what was probably meant.
 #include <algorithm>
+
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene/keys.hpp>
-#include <hompm/scene/reading.hpp>
+#include <hompm/scene_file/keys.hpp>
+#include <hompm/scene_file/reading.hpp>
 
 namespace hompm::detail {
 namespace {

@@ -3,11 +3,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <hompm/scene/keys.hpp>
-#include <hompm/scene/reader.hpp>
-#include <hompm/scene/reading.hpp>
 #include <tuple>
 #include <utility>
+
+#include <hompm/scene_file/keys.hpp>
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/reading.hpp>
 
 namespace hompm {
 namespace detail {

@@ -1,8 +1,9 @@
 #include <array>
 #include <cmath>
-#include <hompm/output/number.hpp>
-#include <hompm/scene/content.hpp>
 #include <type_traits>
+
+#include <hompm/number.hpp>
+#include <hompm/scene_file/content.hpp>
 
 namespace hompm::detail {
 namespace {

@@ -1,6 +1,7 @@
 #include <algorithm>
+
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene/reading.hpp>
+#include <hompm/scene_file/reading.hpp>
 
 namespace hompm::detail {
 namespace {

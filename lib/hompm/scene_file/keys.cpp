@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <hompm/scene/keys.hpp>
-#include <hompm/scene/reader.hpp>
-#include <hompm/scene/toml_values.hpp>
+
+#include <hompm/scene_file/keys.hpp>
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/toml_values.hpp>
 #include <hompm/scheme/scheme.hpp>
 
 namespace hompm {

@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <hompm/scene/embedded_cases.hpp>
-#include <hompm/scene/reader.hpp>
-#include <hompm/scene/value_rule.hpp>
+
+#include <hompm/scene_file/embedded_cases.hpp>
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 
 namespace hompm {
 namespace {

@@ -1,4 +1,4 @@
-// The scene files of lib/hompm/scene/cases/, compiled in (the source is written by lib/embed_cases.cmake).
+// The scene files of lib/cases/, compiled in (the source is written by lib/embed_cases.cmake).
 #pragma once
 
 #include <string>

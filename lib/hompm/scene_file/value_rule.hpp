@@ -1,12 +1,13 @@
 // What a key accepts: its type, unit, range and words, and how to say so.
 #pragma once
 
-#include <hompm/effects/registry.hpp>
-#include <hompm/scene/content.hpp>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <hompm/effects/registry.hpp>
+#include <hompm/scene_file/content.hpp>
 
 namespace hompm::detail {
 

@@ -1,9 +1,10 @@
 // The resolved scene as TOML.
 #include <algorithm>
+
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene/keys.hpp>
-#include <hompm/scene/reader.hpp>
-#include <hompm/scene/toml_values.hpp>
+#include <hompm/scene_file/keys.hpp>
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/toml_values.hpp>
 
 namespace hompm {
 namespace {
