@@ -92,7 +92,7 @@ std::vector<hompm::Override> overrides_of(const po::variables_map& given) {
   for (const auto& [option, key] : shortcuts)
     if (given.count(option)) {
       const auto& value = given[option].as<std::string>();
-      overrides.push_back({key, value, "--" + option + " " + value});
+      overrides.push_back({key, value, std::string("--").append(option).append(" ").append(value)});
     }
   if (given.count("set"))
     for (const auto& text : given["set"].as<std::vector<std::string>>()) {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include <hompm/numerics/elementary.hpp>
-#include <hompm/output/run_report.hpp>
 #include <hompm/simulation/run.hpp>
+#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

@@ -17,7 +17,8 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
     const auto at = state.grid.locate(right ? state.right_boundary : state.left_boundary);
     state.grid.evaluate(at, values, gradients);
     for (int k = 0; k <= state.grid.degree(); ++k)
-      visit(static_cast<std::size_t>(at.cell + k), values[static_cast<std::size_t>(k)]);
+      visit(static_cast<std::size_t>(at.cell) + static_cast<std::size_t>(k),
+            values[static_cast<std::size_t>(k)]);
   };
   builder.add(Phase::external_force, "traction", [at_end, force](State& state) {
     at_end(state, [&](std::size_t i, double value) { state.fields.force[i] += force * value; });

@@ -108,7 +108,8 @@ constexpr DoubleDouble series_log(double x) {
 constexpr std::array<TableEntry, table_size> make_table() {
   std::array<TableEntry, table_size> table{};
   for (std::size_t i = 0; i < table_size; ++i) {
-    const double c = static_cast<double>(32768 / (table_size + i)) / 256.0;
+    const std::size_t parts = 32768 / (table_size + i);  // whole, so that c has few digits
+    const double c = static_cast<double>(parts) / 256.0;
     const bool upper = i > 52;
     const DoubleDouble log_c = series_log(upper ? 2.0 * c : c);
     table[i] = {c, {-log_c.high, -log_c.low}, upper};

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include <hompm/output/columns.hpp>
 #include <hompm/output/text_file.hpp>
+#include <hompm/simulation/columns.hpp>
 
 namespace hompm::detail {
 

@@ -4,25 +4,12 @@
 #include <optional>
 #include <string>
 
-#include <hompm/reference/reference.hpp>
 #include <hompm/scene/scene.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/simulation/time_step.hpp>
-#include <hompm/verify/error_norms.hpp>
+#include <hompm/verify/judge.hpp>
 
 namespace hompm {
-
-/// Errors of the last snapshot against the reference solution.
-struct ErrorReport {
-  std::string reference;         ///< which solution
-  double reference_error = 0.0;  ///< its own, relative L2 of the displacement
-  ErrorNorms displacement, velocity, stress;
-};
-
-/// The errors of `snapshot` against the scene's reference solution; nothing where the scene has none.
-/// `reason` then says why. Throws nothing for a reference that ceases to exist (steepened to a shock): that
-/// is a reason, too.
-std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason);
 
 struct RunReport {
   const Scene& scene;

@@ -1,5 +1,5 @@
-#include <hompm/output/columns.hpp>
 #include <hompm/output/vtu.hpp>
+#include <hompm/simulation/columns.hpp>
 
 namespace hompm::detail {
 namespace {

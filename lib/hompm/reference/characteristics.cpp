@@ -212,7 +212,8 @@ Column::Labels Column::refine(double time, double X, const Labels& labels, Cross
   // the free end with falling ≤ rising, those at the base with falling ≥ rising, both counted from the
   // triangle's corner.
   const double n = static_cast<double>(n_);
-  const double last_trip = static_cast<double>((rows_.size() - 1) / n_ - 1);
+  const std::size_t whole_trips = (rows_.size() - 1) / n_;
+  const double last_trip = static_cast<double>(whole_trips - 1);
   const double rising_trip = std::min(std::floor(labels.rising / n), last_trip);
   const bool upper = labels.falling >= rising_trip * n;
   const double rising = labels.rising - rising_trip * n;

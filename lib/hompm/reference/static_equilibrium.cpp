@@ -34,8 +34,8 @@ ReferenceFields static_equilibrium(const Scene& scene, const Loads& loads, std::
     double displacement = 0.0;
     double from = 0.0;
     for (const double x : X) {
-      const double panels = std::ceil((x - from) / longest_panel);
-      for (double panel = 0.0; panel < panels; panel += 1.0) {
+      const int panels = static_cast<int>(std::ceil((x - from) / longest_panel));
+      for (int panel = 0; panel < panels; ++panel) {
         const double width = (x - from) / panels;
         double mean = 0.0;
         for (std::size_t g = 0; g < rule.points.size(); ++g) {

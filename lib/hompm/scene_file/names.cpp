@@ -22,7 +22,7 @@ std::vector<std::string> all_paths() {
 std::string elsewhere(const std::string& name) {
   for (const std::string& path : all_paths()) {
     if (last_name(path) == name) return path;
-    const std::string table = parent_path(path);
+    std::string table = parent_path(path);
     if (table.find('.') != std::string::npos && last_name(table) == name) return table;
   }
   return "";

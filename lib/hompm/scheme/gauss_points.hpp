@@ -15,7 +15,7 @@ namespace hompm::detail {
 template <int P>
 class GaussPoints {
  public:
-  static constexpr int per_cell = 2 * (P > 2 ? P : 2);
+  static constexpr int per_cell = 2 * std::max(2, P);
   static constexpr std::size_t stencil = P + 1;
 
   explicit GaussPoints(const numerics::SplineSpace& grid)

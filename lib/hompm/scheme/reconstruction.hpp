@@ -66,7 +66,8 @@ class Reconstruction {
       });
       for (int i = 0; i <= P; ++i)
         for (int j = 0; j <= i; ++j)
-          mass_.lower(static_cast<std::size_t>(cell + i), static_cast<std::size_t>(i - j)) += block[i][j];
+          mass_.lower(static_cast<std::size_t>(cell) + static_cast<std::size_t>(i),
+                      static_cast<std::size_t>(i - j)) += block[i][j];
     }
     if (const std::size_t row = mass_.factorise(active_begin_, active_end_); row != active_end_)
       throw_singular_mass(state, row);
@@ -117,7 +118,8 @@ class Reconstruction {
         const double* w = weights(g);
         for (int k = 0; k <= P; ++k) sum[k] += a * w[k];
       });
-      for (int k = 0; k <= P; ++k) target[static_cast<std::size_t>(cell + k)] += sum[k];
+      for (int k = 0; k <= P; ++k)
+        target[static_cast<std::size_t>(cell) + static_cast<std::size_t>(k)] += sum[k];
     }
   }
 

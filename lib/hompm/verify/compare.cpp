@@ -5,8 +5,8 @@
 #include <limits>
 
 #include <hompm/error.hpp>
-#include <hompm/output/columns.hpp>
 #include <hompm/output/text_file.hpp>
+#include <hompm/simulation/columns.hpp>
 #include <hompm/verify/compare.hpp>
 #include <hompm/verify/csv_table.hpp>
 #include <hompm/verify/excerpt.hpp>

@@ -38,7 +38,7 @@ void FieldJudge::compare(std::size_t field, double a, double b, double time, std
   if (tolerance.absolute > 0.0 && distance <= tolerance.absolute) return;
   if (ulp_distance(a, b) <= tolerance.ulps) return;
   pending_.push_back(difference);
-  if (!any_relative_) end_time();
+  if (!any_relative_) end_time();  // nothing to wait for, so nothing to keep in memory
 }
 
 void FieldJudge::end_time() {

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Draws the pictures of docs/pictures anew, from runs.
+
+    docs/make_pictures.py [--tool build/release/bin] [--check]
+
+With --check nothing is written: the exit code is 1 when a picture is stale. Another version of gnuplot draws other bytes; a
+picture by another version is then passed over, with a note.
+"""
+import argparse
+import csv
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+import make_tables  # noqa: E402
+
+PICTURES = make_tables.ROOT / "docs/pictures"
+# Okabe and Ito's colours, which everybody can tell apart; the shapes differ, too.
+STYLES = {"classical": ("#D55E00", 7), "bspline": ("#0072B2", 5), "tielen2017": ("#009E73", 9)}
+
+START = """
+set encoding utf8
+set terminal svg size {size} font "Helvetica,15" background "#FFFFFF"
+set output "{name}.svg"
+set tics nomirror
+set border 3 linecolor "#404040"
+set grid linecolor "#E0E0E0" linetype 1
+"""
+
+
+def block(name, rows):
+    return "\n".join([f"${name} << EOD", *(" ".join(row) for row in rows), "EOD", ""])
+
+
+def bar_large(tools):
+    """Errors of the large bar against the number of cells, with a line of second order."""
+    reports = make_tables.study(tools, "bar-large")
+    script = START.format(size="920,480", name="bar-large")
+    fields = ("displacement", "stress")
+    for scheme in STYLES:
+        rows = [[str(report["cells"]), *(make_tables.short(make_tables.error_of(report, field)) for field in fields)]
+                for report in reports[scheme]]
+        script += block(scheme, rows)
+    script += """
+set logscale x 2
+set logscale y 10
+set xrange [13:310]
+set yrange [1.5e-5:2]
+set xtics (16, 32, 64, 128, 256)
+set format y "10^{%T}"
+set xlabel "cells"
+set multiplot layout 1,2 title "Large bar, t = 4 s: classical diverges, bspline stalls, tielen2017 is of second order" font ",17" offset 0,-0.2
+"""
+    for column, field in enumerate(fields, start=2):
+        script += f'set title "{field}" offset 0,-0.5\nset ylabel "{"relative L2 error" if column == 2 else ""}"\n'
+        script += "set key at graph 0.03,0.02 left bottom Left reverse samplen 2 spacing 1\n" if column == 2 else "unset key\n"
+        curves = [f'${scheme} using 1:{column} with linespoints linewidth 2.5 pointsize 0.8 pointtype {point} '
+                  f'linecolor "{colour}" title "{scheme}"' for scheme, (colour, point) in STYLES.items()]
+        beside = 0.5 * make_tables.error_of(reports["tielen2017"][2], field)
+        curves.append(f'[64:256] {beside:.3g}*({make_tables.CELLS[2]}.0/x)**2 with lines linewidth 1.5 dashtype 2 linecolor "#606060" title "second order"')
+        script += "plot " + ", \\\n     ".join(curves) + "\n"
+    return script + "unset multiplot\n"
+
+
+def column_settled(tools):
+    """Particle stresses over the height of the settled column, and the closed form."""
+    script = START.format(size="920,480", name="column-settled")
+    for scheme in STYLES:
+        report, folder = tools.report("--case", "column", "--variant", "settled", "--scheme", scheme)
+        with open(folder / "stress.csv", newline="", encoding="ascii") as file:
+            rows = [row for row in csv.DictReader(file) if float(row["time"]) == report["end_time"]]
+        script += block(scheme, [[f"{float(row['stress']) / 1000:.4f}", f"{float(row['X']):.4f}"] for row in rows])
+    script += block("exact", [["-9.81", "0"], ["0", "1"]])  # σ = −ρ0 g (H − X) is a straight line
+    script += """
+set xrange [-12:2]
+set yrange [0:1]
+set xtics -10,5,0
+set xlabel "stress σ, kPa"
+set key at graph 0.03,0.97 left top Left reverse samplen 1.5 spacing 1.2
+set multiplot layout 1,3 title "Settled column, 32 cells of 4 particles, base compressed to half its length" font ",17" offset 0,-0.2
+"""
+    for number, (scheme, (colour, _)) in enumerate(STYLES.items()):
+        note = "not at rest, t = 20 s" if scheme == "classical" else "at rest"
+        script += f'set title "{scheme} ({note})" offset 0,-0.5\nset ylabel "{"reference position X, m" if number == 0 else ""}"\n'
+        script += (f'plot ${scheme} using 1:2 with points pointtype 7 pointsize 0.35 linecolor "{colour}" title "particles", \\\n'
+                   '     $exact using 1:2 with lines linewidth 1.5 linecolor "#000000" title "exact"\n')
+    return script + "unset multiplot\n"
+
+
+def version(text):
+    found = re.search(r"GNUPLOT ([\d.]+) patchlevel (\w+)", text)
+    return found.group(0) if found else ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+    parser.add_argument("--tool", type=pathlib.Path, default=make_tables.ROOT / "build/release/bin", help="folder of hompm-run")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail when a picture is stale")
+    arguments = parser.parse_args()
+
+    stale = []
+    with tempfile.TemporaryDirectory() as work:
+        tools = make_tables.Tools(arguments.tool.resolve(), work)
+        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled)):
+            subprocess.run(["gnuplot"], input=draw(tools), text=True, check=True, cwd=work)
+            new = (pathlib.Path(work) / f"{name}.svg").read_text()
+            path = PICTURES / f"{name}.svg"
+            old = path.read_text() if path.exists() else ""
+            if new == old:
+                continue
+            if not arguments.check:
+                PICTURES.mkdir(exist_ok=True)
+                path.write_text(new)
+                print(f"{path.relative_to(make_tables.ROOT)}: drawn anew")
+            elif old and version(old) != version(new):
+                print(f"{path.relative_to(make_tables.ROOT)}: passed over, it is by {version(old)}, here is {version(new)}")
+            else:
+                stale.append(f"{path.relative_to(make_tables.ROOT)} is stale (docs/make_pictures.py draws it anew)")
+    for complaint in stale:
+        print(complaint, file=sys.stderr)
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

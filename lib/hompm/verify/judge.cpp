@@ -1,0 +1,37 @@
+#include <hompm/error.hpp>
+#include <hompm/number.hpp>
+#include <hompm/reference/reference.hpp>
+#include <hompm/verify/judge.hpp>
+
+namespace hompm {
+
+std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason) {
+  const std::optional<Reference> reference = make_reference(scene);
+  if (!reference) {
+    reason = "no reference solution is known for this scene";
+    return std::nullopt;
+  }
+  if (scene.rest && !result.at_rest) {
+    reason = "the body had not come to rest by the end time; the reference is the state of rest";
+    return std::nullopt;
+  }
+  try {
+    const ReferenceFields exact = reference->at(result.final.time, result.final.reference_position);
+    // Past a shock the reference no longer converges, and says so by its own error.
+    if (const double own = reference->estimated_error(); own > 1e-3) {
+      reason = "the reference solution (" + reference->description + ") is only good to " + to_text(own) +
+               " here: the motion has steepened to a shock";
+      return std::nullopt;
+    }
+    return ErrorReport{.reference = reference->description,
+                       .reference_error = reference->estimated_error(),
+                       .displacement = error_norms(result.final.displacement, exact.displacement),
+                       .velocity = error_norms(result.final.velocity, exact.velocity),
+                       .stress = error_norms(result.final.stress, exact.stress)};
+  } catch (const Error& error) {
+    reason = error.what();
+    return std::nullopt;
+  }
+}
+
+}  // namespace hompm

@@ -1,0 +1,25 @@
+// How far a run is from the exact solution of its scene.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <hompm/scene/scene.hpp>
+#include <hompm/simulation/run.hpp>
+#include <hompm/verify/error_norms.hpp>
+
+namespace hompm {
+
+/// Errors of the last snapshot against the reference solution.
+struct ErrorReport {
+  std::string reference;         ///< which solution
+  double reference_error = 0.0;  ///< its own, relative L2 of the displacement
+  ErrorNorms displacement, velocity, stress;
+};
+
+/// The errors of `snapshot` against the scene's reference solution; nothing where the scene has none.
+/// `reason` then says why. Throws nothing for a reference that ceases to exist (steepened to a shock): that
+/// is a reason, too.
+std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason);
+
+}  // namespace hompm
