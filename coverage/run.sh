@@ -9,8 +9,8 @@ cli/setup.sh --tests
 cmake --preset coverage >/dev/null
 cmake --build --preset coverage
 find build/coverage -name '*.gcda' -delete
-# The verification tests run the same code, only longer.
-ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE verification
+# The others run the same code, only longer.
+ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|docs"
 
 cd build/coverage
 lcov --quiet --capture --directory lib --output-file all.info --rc lcov_branch_coverage=0
