@@ -63,8 +63,9 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
   using hompm::Phase;
   const hompm::Simulation simulation(scene, stepping.time_step);
   const bool moves = scene.kinematics == hompm::Kinematics::finite;
-  const std::array<std::pair<Phase, std::string>, 8> phases{{
+  const std::array<std::pair<Phase, std::string>, 9> phases{{
       {Phase::geometry, moves ? "geometry" : "geometry (once: nothing moves)"},
+      {Phase::end_stress, "stress at the ends"},
       {Phase::internal_force, "internal force"},
       {Phase::external_force, "external force"},
       {Phase::damping_force, "damping force"},

@@ -29,13 +29,14 @@ std::vector<double> uneven_sites(std::size_t count) {
 
 struct Spline {
   CubicSplineSites sites;
-  std::vector<double> y, second;
+  std::vector<double> y;
+  CubicSplineSites::Fit fit;
   Spline(const std::vector<double>& x, std::vector<double> values)
-      : sites(x.size()), y(std::move(values)), second(x.size()) {
+      : sites(x.size()), y(std::move(values)), fit(x.size()) {
     REQUIRE(sites.factorise(x) == 0);
-    sites.second_derivatives(y, second);
+    sites.fit(y, fit);
   }
-  [[nodiscard]] double operator()(double x) const { return sites.evaluate(sites.weights(x, 0), y, second); }
+  [[nodiscard]] double operator()(double x) const { return sites.evaluate(sites.weights(x, 0), fit); }
 };
 
 }  // namespace
@@ -50,6 +51,15 @@ TEST_CASE("cubics are reproduced, between and beyond the sites") {
   for (double at = x.front() - 0.05; at < x.back() + 0.05; at += 0.013)
     CHECK(std::abs(spline(at) - f(at)) <
           1e-13 * std::max(1.0, std::abs(f(x.back()))));  // condition ~ 1e2, eps 2e-16
+}
+
+TEST_CASE("the slope at a site is that of the cubic") {
+  const auto x = uneven_sites(9);
+  std::vector<double> y;
+  for (const double site : x) y.push_back(site * (2.0 + site * (1.0 - site)));
+  const Spline spline(x, y);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    CHECK(std::abs(spline.sites.slope(i, spline.fit) - (2.0 + 2.0 * x[i] - 3.0 * x[i] * x[i])) < 1e-12);
 }
 
 TEST_CASE("few sites give the straight line and the parabola") {
@@ -88,7 +98,8 @@ TEST_CASE("the spline passes through its data and agrees with a dense solve of t
                    entry(n - 1, n - 1) = h(n - 3);
   const Eigen::VectorXd m = a.fullPivLu().solve(b);
   for (std::size_t i = 0; i < n; ++i)
-    CHECK(std::abs(spline.second[i] - m(static_cast<Eigen::Index>(i))) < 1e-11 * m.cwiseAbs().maxCoeff());
+    CHECK(std::abs(spline.fit.second_derivatives[i] - m(static_cast<Eigen::Index>(i))) <
+          1e-11 * m.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("interpolation of a smooth function is of fourth order") {

@@ -181,6 +181,7 @@ cells = 9
 particles_per_cell = 4
 margin_cells = 4
 courant = 0.5
+time_integrator = "euler-cromer"
 allow_unstable = false
 
 [output]

@@ -116,9 +116,11 @@ TEST_CASE("internal forces sum to zero, and momentum changes by the impulse alon
       built_in("bar", "large", {{"scheme.name", scheme.name}, {"scheme.cells", "32"}, {"end_time", "0.5"}});
   const auto result = hompm::run(scene, hompm::time_stepping(scene));
   CHECK(result.largest_internal_force_sum <= 16 * epsilon);
-  // 5000 steps, each rounding the momentum a few times: a random walk of √5000 · 1 ulp stays below 1e-12 of
-  // it
-  CHECK(result.largest_momentum_residual <= 1e-12 * result.largest_momentum);
+  // Lumped: to the rounding of 5000 steps. The consistent mass is that of the density spline, not of the
+  // particles: their momenta differ by its interpolation and quadrature error, which falls with the grid
+  // (docs/method.md).
+  const bool lumped = scheme.acceleration_mass == hompm::MassForm::lumped;
+  CHECK(result.largest_momentum_residual <= (lumped ? 1e-12 : 1e-4) * result.largest_momentum);
   CHECK(result.end.mass == result.start.mass);
 }
 
@@ -237,7 +239,7 @@ TEST_CASE("invalid states are found where they arise") {
     CHECK_THROWS_WITH(simulation.plan().run(Phase::geometry, state), hompm::test::contains("particle 11"));
   }
   SECTION("a density spline that is not positive") {
-    for (std::size_t i = 30; i < 40; ++i) p.volume[i] = i % 2 == 0 ? 1e-9 : 1.0;
+    for (std::size_t i = 30; i < 40; ++i) p.stretch[i] = i % 2 == 0 ? 1e-9 : 1.0;
     CHECK_THROWS_WITH(simulation.plan().run(Phase::geometry, state), hompm::test::contains("density spline"));
   }
   SECTION("an inverted particle") {

@@ -9,7 +9,7 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   builder.add(Phase::external_force, "gravity", [b](State& state) {
     GridFields& g = state.fields;
     for (std::size_t i = 0; i < g.force.size(); ++i) g.force[i] += b * g.mass[i];
-    state.balance.impulse += state.time_step * b * state.total_mass;
+    state.balance.impulse += state.kick * b * state.total_mass;
   });
   builder.plan.potentials.push_back([b](const State& state) {
     double moment = 0.0;

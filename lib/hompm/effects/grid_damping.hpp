@@ -10,9 +10,9 @@
 
 namespace hompm::detail {
 
-/// Adds `force_of(mass, force, velocity)` (Pa) to the force on every grid function, where `force` is out of
-/// balance so far and `velocity` is that of the last projection; books its impulse, and the energy −f·v Δt it
-/// takes once the velocity of the step is known.
+/// Adds `force_of(momentum, force, velocity)` (Pa) to the force on every grid function, where `force` is out
+/// of balance so far and `velocity` is that of the last projection; books its impulse, and the energy −f·v Δt
+/// it takes once the velocity of the step is known.
 template <class Force>
 void join_grid_damping(PlanBuilder& builder, const std::string& name, Force force_of) {
   const auto damping = std::make_shared<std::vector<double>>(builder.state.fields.force.size());
@@ -22,18 +22,18 @@ void join_grid_damping(PlanBuilder& builder, const std::string& name, Force forc
         GridFields& g = state.fields;
         double sum = 0.0;
         for (std::size_t i = 0; i < damping->size(); ++i) {
-          const double f = force_of(g.mass[i], g.force[i], g.velocity[i]);
+          const double f = force_of(g.momentum[i], g.force[i], g.velocity[i]);
           (*damping)[i] = f;
           g.force[i] += f;
           sum += f;
         }
-        state.balance.impulse += state.time_step * sum;
+        state.balance.impulse += state.kick * sum;
       },
       "per function: damping force");
   builder.add(Phase::work, name + ": dissipated energy", [damping](State& state) {
     double power = 0.0;
     for (std::size_t i = 0; i < damping->size(); ++i) power += (*damping)[i] * state.fields.velocity[i];
-    state.balance.dissipated -= state.time_step * power;
+    state.balance.dissipated -= state.drift * power;
   });
 }
 

@@ -4,11 +4,12 @@
 namespace hompm::detail {
 namespace {
 
-/// f_i = −β M_i v_i: b = −β v in the continuum.
+/// f_i = −β ∫ρ v N_i: b = −β v in the continuum. The row sum M_i v_i instead would be unstable with
+/// consistent mass, whose inverse is large for the modes that alternate from cell to cell.
 void join(const EffectSpec& spec, PlanBuilder& builder) {
   join_grid_damping(
       builder, "mass-proportional damping",
-      [rate = spec.number("rate")](double mass, double, double velocity) { return -rate * mass * velocity; });
+      [rate = spec.number("rate")](double momentum, double, double) { return -rate * momentum; });
 }
 
 }  // namespace

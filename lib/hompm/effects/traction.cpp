@@ -20,14 +20,19 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
       visit(static_cast<std::size_t>(at.cell) + static_cast<std::size_t>(k),
             values[static_cast<std::size_t>(k)]);
   };
+  if (builder.wants_end_stress)
+    builder.add(Phase::end_stress, "traction: stress at the end",
+                [right, stress = spec.number("value")](State& state) {
+                  (right ? state.right_stress : state.left_stress) += stress;
+                });
   builder.add(Phase::external_force, "traction", [at_end, force](State& state) {
     at_end(state, [&](std::size_t i, double value) { state.fields.force[i] += force * value; });
-    state.balance.impulse += state.time_step * force;
+    state.balance.impulse += state.kick * force;
   });
   builder.add(Phase::work, "traction: external work", [at_end, force](State& state) {
     double velocity = 0.0;
     at_end(state, [&](std::size_t i, double value) { velocity += value * state.fields.velocity[i]; });
-    state.balance.external_work += state.time_step * force * velocity;
+    state.balance.external_work += state.drift * force * velocity;
   });
 }
 

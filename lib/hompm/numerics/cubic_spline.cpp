@@ -6,7 +6,7 @@
 namespace hompm::numerics {
 
 CubicSplineSites::CubicSplineSites(std::size_t sites) : count_(sites) {
-  if (sites < 2) throw Error("a spline needs at least two sites");
+  if (sites < fewest_sites) throw Error("a spline needs at least two sites");
   for (auto* array : {&sites_, &width_, &inverse_width_, &eliminate_, &inverse_pivot_, &above_})
     array->resize(sites);
 }
@@ -45,7 +45,9 @@ std::size_t CubicSplineSites::factorise(std::span<const double> sites) {
   return 0;
 }
 
-void CubicSplineSites::second_derivatives(std::span<const double> values, std::span<double> result) const {
+void CubicSplineSites::fit(std::span<const double> values, Fit& spline) const {
+  spline.values = values;
+  std::vector<double>& result = spline.second_derivatives;
   if (count_ == 2) {
     result[0] = result[1] = 0.0;
     return;

@@ -9,9 +9,11 @@ namespace hompm::numerics {
 
 /// Interpolating cubic splines with the not-a-knot end condition (de Boor, A Practical Guide to Splines, ch.
 /// IV), in terms of the second derivatives at the sites. Two sites give the straight line, three the
-/// parabola. All memory is taken by the constructor.
+/// parabola. All memory is taken by the constructors.
 class CubicSplineSites {
  public:
+  static constexpr std::size_t fewest_sites = 2;
+
   /// `sites` is their number, at least 2; throws `Error` below.
   explicit CubicSplineSites(std::size_t sites);
 
@@ -19,8 +21,15 @@ class CubicSplineSites {
   /// not above the one before it, or 0 when all are in order; the splines may be used only then.
   [[nodiscard]] std::size_t factorise(std::span<const double> sites);
 
-  /// Second derivatives (data unit/m²) at the sites of the spline through `values`.
-  void second_derivatives(std::span<const double> values, std::span<double> result) const;
+  /// One spline: the data it passes through, which must outlive its use, and its second derivatives (data
+  /// unit/m²) there.
+  struct Fit {
+    explicit Fit(std::size_t sites) : second_derivatives(sites) {}
+    std::span<const double> values;
+    std::vector<double> second_derivatives;
+  };
+  /// The spline through `values`, one per site.
+  void fit(std::span<const double> values, Fit& spline) const;
 
   /// Where a point lies and what the four data around it weigh: the same for every data set on these sites.
   struct Weights {
@@ -38,11 +47,20 @@ class CubicSplineSites {
     const double scale = width_[i] * width_[i] * (1.0 / 6.0);
     return {i, left, right, (left * left * left - left) * scale, (right * right * right - right) * scale};
   }
-  [[nodiscard]] static double evaluate(const Weights& w, std::span<const double> values,
-                                       std::span<const double> second_derivatives) {
-    return (w.left * values[w.interval] + w.right * values[w.interval + 1]) +
-           (w.left_derivative * second_derivatives[w.interval] +
-            w.right_derivative * second_derivatives[w.interval + 1]);
+  [[nodiscard]] static double evaluate(const Weights& w, const Fit& spline) {
+    return (w.left * spline.values[w.interval] + w.right * spline.values[w.interval + 1]) +
+           (w.left_derivative * spline.second_derivatives[w.interval] +
+            w.right_derivative * spline.second_derivatives[w.interval + 1]);
+  }
+  /// First derivative (data unit/m) of the spline at site i.
+  [[nodiscard]] double slope(std::size_t i, const Fit& spline) const {
+    const bool last = i + 1 == count_;
+    const std::size_t k = last ? i - 1 : i;
+    const double left = spline.second_derivatives[k];
+    const double right = spline.second_derivatives[k + 1];
+    const double secant = (spline.values[k + 1] - spline.values[k]) * inverse_width_[k];
+    const double sixth = width_[k] * (1.0 / 6.0);
+    return last ? secant + sixth * (left + 2.0 * right) : secant - sixth * (2.0 * left + right);
   }
 
  private:

@@ -14,6 +14,13 @@ std::string text(double value) { return std::isfinite(value) ? to_text(value) : 
   throw InvalidRun(state.step, state.time, particle, reason);
 }
 
+/// The number under which a particle is reported; −1 for a boundary marker.
+std::int64_t number(const State& state, std::size_t index) {
+  const std::size_t markers = state.particles.markers;
+  if (index < markers || index >= state.particles.size() - markers) return -1;
+  return static_cast<std::int64_t>(index - markers);
+}
+
 std::string grid_text(const State& state) {
   return "[" + to_text(state.grid.origin()) + ", " + to_text(state.grid.breakpoint(state.grid.cells())) +
          "] m";
@@ -22,7 +29,7 @@ std::string grid_text(const State& state) {
 }  // namespace
 
 void throw_left_grid(const State& state, std::size_t particle) {
-  invalid(state, static_cast<std::int64_t>(particle),
+  invalid(state, number(state, particle),
           "left the grid: its position is " + text(state.particles.position[particle]) + ", the grid is " +
               grid_text(state) +
               "; a step that is too large or too small a scheme.margin_cells are the usual causes");
@@ -35,13 +42,13 @@ void throw_boundary_left_grid(const State& state, double boundary) {
 }
 
 void throw_inverted(const State& state, std::size_t particle, double stretch) {
-  invalid(state, static_cast<std::int64_t>(particle),
+  invalid(state, number(state, particle),
           "inverted: its stretch became " + text(stretch) +
               "; a step that is too large or too few particles per cell are the usual causes");
 }
 
 void throw_out_of_order(const State& state, std::size_t particle) {
-  invalid(state, static_cast<std::int64_t>(particle),
+  invalid(state, number(state, particle),
           "passed its left neighbour: at " + text(state.particles.position[particle]) +
               " m, the neighbour at " + text(state.particles.position[particle - 1]) +
               " m; the reconstruction needs particles in order (step too large, or motion the grid cannot "

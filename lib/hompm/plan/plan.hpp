@@ -15,6 +15,7 @@ namespace hompm {
 /// The parts of a step, in the order in which they run.
 enum class Phase {
   geometry,        ///< what depends on the positions alone: once per run with infinitesimal kinematics
+  end_stress,      ///< stresses applied at the ends, for schemes that ask for them
   internal_force,  ///< sets force = −f_int
   external_force,  ///< effects add to the force
   damping_force,   ///< effects that need the whole out-of-balance force
@@ -51,6 +52,8 @@ struct PlanBuilder {
   const State& state;
   Plan plan = {};
   std::string called_by = {};  ///< set before each effect or choice joins
+  /// The scheme asks effects to add what they apply at the ends to State::left_stress and right_stress.
+  bool wants_end_stress = false;
 
   void add(Phase phase, std::string name, std::function<void(State&)> run, std::string arrays = {}) {
     plan.phases[static_cast<std::size_t>(phase)].push_back(

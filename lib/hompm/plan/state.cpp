@@ -13,32 +13,38 @@ numerics::SplineSpace make_grid(const Scene& scene) {
 
 }  // namespace
 
-State initial_state(const Scene& scene) {
+State initial_state(const Scene& scene, bool markers) {
   State state{.grid = make_grid(scene),
               .ends = scene.ends,
               .particles = {},
               .basis = {},
               .fields = {},
               .balance = {}};
+  state.moves = scene.kinematics == Kinematics::finite;
   const auto per_cell = static_cast<std::size_t>(scene.scheme.particles_per_cell);
   const auto count = static_cast<std::size_t>(scene.scheme.cells) * per_cell;
   const double volume = scene.body.length / static_cast<double>(count);
 
   Particles& p = state.particles;
-  p.reference_position.resize(count);
+  p.markers = markers ? 1 : 0;
+  if (markers) p.reference_position.push_back(0.0);
   for (std::size_t i = 0; i < count; ++i)
-    p.reference_position[i] =
-        scene.body.length * (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count));
+    p.reference_position.push_back(scene.body.length *
+                                   (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count)));
+  if (markers) p.reference_position.push_back(scene.body.length);
+  const std::size_t sites = p.reference_position.size();
   p.position = p.reference_position;
-  p.displacement.assign(count, 0.0);
-  p.velocity.assign(count, 0.0);
-  p.reference_volume.assign(count, volume);
+  p.displacement.assign(sites, 0.0);
+  p.velocity.assign(sites, 0.0);
+  p.reference_volume.assign(sites, volume);
+  p.mass.assign(sites, scene.material.density * volume);
+  if (markers) p.mass.front() = p.mass.back() = p.reference_volume.front() = p.reference_volume.back() = 0.0;
   p.volume = p.reference_volume;
-  p.mass.assign(count, scene.material.density * volume);
-  p.stretch.assign(count, 1.0);
-  p.stress.assign(count, 0.0);
+  p.reference_density.assign(sites, scene.material.density);
+  p.stretch.assign(sites, 1.0);
+  p.stress.assign(sites, 0.0);
   if (const auto& initial = scene.initial_velocity) {
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < sites; ++i)
       p.velocity[i] = initial->amplitude *
                       numerics::sin_pi(initial->mode * (p.reference_position[i] / scene.body.length));
   }
@@ -46,11 +52,11 @@ State initial_state(const Scene& scene) {
   state.right_boundary = scene.body.length;
 
   const auto stencil = static_cast<std::size_t>(scene.scheme.degree) + 1;
-  state.basis.first.assign(count, 0);
-  state.basis.values.assign(count * stencil, 0.0);
-  state.basis.gradients.assign(count * stencil, 0.0);
+  state.basis.first.assign(sites, 0);
+  state.basis.values.assign(sites * stencil, 0.0);
+  state.basis.gradients.assign(sites * stencil, 0.0);
   GridFields& g = state.fields;
-  for (auto* field : {&g.mass, &g.internal_force, &g.force, &g.acceleration, &g.velocity})
+  for (auto* field : {&g.mass, &g.internal_force, &g.force, &g.acceleration, &g.momentum, &g.velocity})
     field->assign(static_cast<std::size_t>(state.grid.functions()), 0.0);
   return state;
 }

@@ -11,18 +11,24 @@ namespace hompm {
 
 /// One entry per particle, ordered by reference position. The displacement is what is summed up, and the
 /// position follows from it: small motions far from the origin keep their digits.
+///
+/// With markers the first and the last entry are massless particles at the ends of the body: they move and
+/// strain like the others, so that the material boundary is known, and end the data of the splines. They are
+/// not reported.
 struct Particles {
+  std::size_t markers = 0;                 ///< at each end: 0 or 1
   std::vector<double> reference_position;  ///< X, m
   std::vector<double> displacement;        ///< u, m
   std::vector<double> position;            ///< x = X + u, m (X itself with infinitesimal kinematics)
   std::vector<double> velocity;            ///< m/s
   std::vector<double> mass;                ///< kg/m²
+  std::vector<double> reference_density;   ///< ρ0, kg/m³
   std::vector<double> reference_volume;    ///< m
   std::vector<double> volume;              ///< V = V0 λ, m (V0 with infinitesimal kinematics)
   std::vector<double> stretch;             ///< λ
   std::vector<double> stress;              ///< σ, Pa
 
-  [[nodiscard]] std::size_t size() const { return mass.size(); }
+  [[nodiscard]] std::size_t size() const { return mass.size(); }  ///< markers included
 };
 
 /// Grid functions at the particles: for each particle the first function that is not zero there, and the
@@ -39,7 +45,8 @@ struct GridFields {
   std::vector<double> internal_force;  ///< Pa
   std::vector<double> force;           ///< out of balance: external − internal, Pa
   std::vector<double> acceleration;    ///< m/s²
-  std::vector<double> velocity;        ///< m/s, of the last projection
+  std::vector<double> momentum;        ///< ∫ρ v N_i of the last projection, kg/(m s)
+  std::vector<double> velocity;        ///< m/s, from it
 };
 
 /// Sums over the steps so far, for the balances.
@@ -53,22 +60,34 @@ struct State {
   std::int64_t step = 0;
   double time = 0.0;       ///< s
   double time_step = 0.0;  ///< s
+  double kick = 0.0;       ///< s, by which the part of the step under way changes velocities
+  double drift = 0.0;      ///< s, by which it changes positions
 
   numerics::SplineSpace grid;
   Ends ends;
+  bool moves = true;           ///< finite kinematics
   double total_mass = 0.0;     ///< kg/m²
   double left_boundary = 0.0;  ///< of the material, m
   double right_boundary = 0.0;
+  double left_stress =
+      0.0;  ///< applied at the ends, Pa, tension positive; kept only for schemes with markers
+  double right_stress = 0.0;
 
   Particles particles;
   BasisAtParticles basis;
   GridFields fields;
   Balance balance;
+
+  /// ρ0/λ, kg/m³ (ρ0 with infinitesimal kinematics, where volumes stay).
+  [[nodiscard]] double density(std::size_t particle) const {
+    return moves ? particles.reference_density[particle] / particles.stretch[particle]
+                 : particles.reference_density[particle];
+  }
 };
 
 /// The state of a scene at t = 0: particles at (2i − 1)/(2k) of each cell with equal volumes, initial
-/// velocity, no stress; the grid reaches `margin_cells` beyond each free end. Allocates every array a step
-/// needs.
-State initial_state(const Scene& scene);
+/// velocity, no stress; the grid reaches `margin_cells` beyond each free end. `markers`: one massless
+/// particle at each end. Allocates every array a step needs.
+State initial_state(const Scene& scene, bool markers);
 
 }  // namespace hompm

@@ -56,14 +56,16 @@ struct SchemeSpec {
   int degree = 0;
   int cells = 0;  ///< over the body's length
   int particles_per_cell = 0;
-  int margin_cells = 0;                 ///< grid cells beyond each free end
-  std::optional<double> time_step;      ///< s
-  std::optional<double> courant;        ///< c Δt / h
-  std::optional<double> step_fraction;  ///< Δt over the critical step of the scheme
-  bool allow_unstable = false;          ///< run with a step above the critical one all the same
+  int margin_cells = 0;                   ///< grid cells beyond each free end
+  std::optional<double> time_step;        ///< s
+  std::optional<double> courant;          ///< c Δt / h
+  std::optional<double> step_fraction;    ///< Δt over the critical step of the scheme
+  std::string time_integrator;            ///< "" for the scheme's own
+  std::optional<double> relaxation_rate;  ///< 1/s, of the null space; none for the scheme's own
+  bool allow_unstable = false;            ///< run with a step above the critical one all the same
 };
 
-/// The run ends as soon as the body is at rest: when the grid velocity has not passed `speed` for the time a
+/// The run ends as soon as the body is at rest: when no particle has moved faster than `speed` for the time a
 /// wave takes to travel the body and back.
 struct Rest {
   double speed = 0.0;  ///< m/s

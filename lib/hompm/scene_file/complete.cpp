@@ -63,6 +63,16 @@ void complete_margin(Reading& reading) {
   }
 }
 
+void complete_integration(Reading& reading, const Scheme& scheme) {
+  SchemeSpec& spec = reading.scene.scheme;
+  if (reading.silent_on("scheme.time_integrator"))
+    spec.time_integrator = integrator_names().at(static_cast<std::size_t>(scheme.integrator));
+  if (reading.has("scheme.relaxation_rate") && !scheme.relaxes)
+    reading.report(reading.said.where("scheme.relaxation_rate"),
+                   "`scheme.relaxation_rate`: the scheme " + scheme.name +
+                       " has no null-space relaxation; high-order has");
+}
+
 void check_particle_count(Reading& reading) {
   constexpr std::int64_t most = 100'000'000;
   const std::int64_t particles =
@@ -108,6 +118,7 @@ void complete(Reading& reading) {
   if (scheme != schemes.end()) {
     complete_degree(reading, *scheme);
     complete_margin(reading);
+    complete_integration(reading, *scheme);
   }
   check_particle_count(reading);
   check_time_step(reading);

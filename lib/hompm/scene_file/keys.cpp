@@ -83,8 +83,8 @@ std::vector<KeyRow> make_key_table() {
        [](Scene& scene) -> Slot { return &scene.ends.right; }},
 
       {"rest.speed", positive("m/s"), missing, "", "",
-       "the run also ends once the grid velocity has not passed it for the time a wave takes through the "
-       "body and back",
+       "the run also ends once no particle has moved faster for the time a wave takes through the body and "
+       "back",
        [](Scene& scene) -> Slot { return &scene.rest->speed; }},
 
       {"scheme.name", word(scheme_names()), standard, "\"tielen2017\"", "", "how the scene is discretised",
@@ -110,6 +110,16 @@ std::vector<KeyRow> make_key_table() {
       {"scheme.step_fraction", positive(""), derived, "", "",
        "the step over the largest stable step of the scheme; " + one_of,
        [](Scene& scene) -> Slot { return &scene.scheme.step_fraction; }},
+      {"scheme.time_integrator", word(integrator_names()), derived, "the scheme's own", "",
+       "of first, second, fourth order in the step",
+       [](Scene& scene) -> Slot { return &scene.scheme.time_integrator; }},
+      {"scheme.relaxation_rate",
+       {.type = ValueType::number, .unit = "1/s", .minimum = 0.0},
+       derived,
+       "π c / length, only with high-order",
+       "",
+       "at which particle data that project to nothing on the grid decay; 0 leaves them",
+       [](Scene& scene) -> Slot { return &scene.scheme.relaxation_rate; }},
       {"scheme.allow_unstable", any(ValueType::boolean), standard, "false", "",
        "run with a step that is too large",
        [](Scene& scene) -> Slot { return &scene.scheme.allow_unstable; }},

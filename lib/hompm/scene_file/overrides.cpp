@@ -85,8 +85,8 @@ void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
   auto& values = reading.said.values;
   if (said.contains("scheme.name")) {
     // What suits one scheme need not suit another.
-    values.erase("scheme.degree");
-    values.erase("scheme.margin_cells");
+    for (const char* key : {"degree", "margin_cells", "time_integrator", "relaxation_rate"})
+      values.erase(std::string("scheme.") + key);
   }
   const std::vector<std::string> steps{"scheme.time_step", "scheme.courant", "scheme.step_fraction"};
   for (const std::string& step : steps) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <hompm/error.hpp>
 #include <hompm/plan/invalid.hpp>
 #include <hompm/plan/state.hpp>
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <hompm/error.hpp>
 #include <hompm/scheme/scheme.hpp>
 
@@ -16,7 +18,9 @@ const std::vector<Scheme>& scheme_table() {
        .velocity_mass = MassForm::lumped,
        .stress_update = StressUpdate::incremental,
        .integrator = TimeIntegrator::euler_cromer,
-       .free_end = FreeEnd::particles},
+       .free_end = FreeEnd::particles,
+       .markers = false,
+       .relaxes = false},
       {.name = "bspline",
        .summary = "B-splines, particle quadrature",
        .source = "Steffen, Kirby, Berzins, Int. J. Numer. Methods Engrg. 76 (2008) 922-948",
@@ -28,7 +32,9 @@ const std::vector<Scheme>& scheme_table() {
        .velocity_mass = MassForm::lumped,
        .stress_update = StressUpdate::incremental,
        .integrator = TimeIntegrator::euler_cromer,
-       .free_end = FreeEnd::particles},
+       .free_end = FreeEnd::particles,
+       .markers = false,
+       .relaxes = false},
       {.name = "tielen2017",
        .summary = "B-splines, cubic-spline reconstruction, Gauss quadrature, consistent velocity",
        .source = "Tielen, Wobbes, Moller, Beuth, Procedia Engineering 175 (2017) 265-272",
@@ -40,15 +46,72 @@ const std::vector<Scheme>& scheme_table() {
        .velocity_mass = MassForm::consistent,
        .stress_update = StressUpdate::incremental,
        .integrator = TimeIntegrator::euler_cromer,
-       .free_end = FreeEnd::cut_span},
+       .free_end = FreeEnd::cut_span,
+       .markers = false,
+       .relaxes = false},
+      {.name = "high-order",
+       .summary = "consistent acceleration, stretch from positions, boundary markers, extension, leapfrog",
+       .source = "docs/method.md, after Tielen et al. 2017 and Yamaguchi, Moriguchi, Terada 2021",
+       .lowest_degree = 2,
+       .highest_degree = 5,
+       .default_degree = 3,
+       .quadrature = Quadrature::reconstructed,
+       .acceleration_mass = MassForm::consistent,
+       .velocity_mass = MassForm::consistent,
+       .stress_update = StressUpdate::from_positions,
+       .integrator = TimeIntegrator::leapfrog,
+       .free_end = FreeEnd::extension,
+       .markers = true,
+       .relaxes = true},
   };
   return table;
+}
+
+const Splitting& splitting(TimeIntegrator integrator) {
+  static const Splitting euler_cromer{{1.0}, {1.0}};
+  static const Splitting leapfrog{{0.5, 0.5}, {1.0}};
+  static const Splitting blanes_moan = [] {
+    const double b1 = 0.0829844064174052;
+    const double b2 = 0.396309801498368;
+    const double b3 = -0.0390563049223486;
+    const double a1 = 0.245298957184271;
+    const double a2 = 0.604872665711080;
+    const double a3 = 0.5 - (a1 + a2);
+    return Splitting{{b1, b2, b3, 1.0 - 2.0 * (b1 + b2 + b3), b3, b2, b1}, {a1, a2, a3, a3, a2, a1}};
+  }();
+  switch (integrator) {
+    case TimeIntegrator::euler_cromer:
+      return euler_cromer;
+    case TimeIntegrator::leapfrog:
+      return leapfrog;
+    default:
+      return blanes_moan;
+  }
+}
+
+const std::vector<std::string>& integrator_names() {
+  static const std::vector<std::string> names{"euler-cromer", "leapfrog",
+                                              "blanes-moan"};  // in the order of the enum
+  return names;
+}
+
+TimeIntegrator find_integrator(const std::string& name) {
+  const auto& names = integrator_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw Error("there is no time integrator " + name);
+  return static_cast<TimeIntegrator>(found - names.begin());
 }
 
 const Scheme& find_scheme(const std::string& name) {
   for (const Scheme& scheme : scheme_table())
     if (scheme.name == name) return scheme;
   throw Error("there is no scheme " + name);
+}
+
+Scheme choose_scheme(const SchemeSpec& spec) {
+  Scheme scheme = find_scheme(spec.name);
+  if (!spec.time_integrator.empty()) scheme.integrator = find_integrator(spec.time_integrator);
+  return scheme;
 }
 
 }  // namespace hompm

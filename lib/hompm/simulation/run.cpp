@@ -17,22 +17,29 @@ bool is_due(std::int64_t step, std::int64_t steps, std::int64_t count) {
   return k >= 1 && (2 * k * steps + count) / (2 * count) == step;
 }
 
-/// Tells when the grid velocity has not passed the scene's `rest.speed` for the time a wave takes there and
-/// back. The grid's and not the particles': what a particle's velocity has beyond the grid's moves nothing.
+/// Tells when no particle has moved faster than the scene's `rest.speed` for the time a wave takes there and
+/// back. By positions, not velocities: what a particle's velocity has beyond the grid's moves nothing, and
+/// what the grid's has is taken back where relaxation balances it.
 class RestWatch {
  public:
-  RestWatch(const Scene& scene, double time_step) : speed_(scene.rest->speed) {
+  RestWatch(const Scene& scene, double time_step, const Particles& particles)
+      : longest_way_(scene.rest->speed * time_step), before_(particles.displacement) {
     const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
     steps_needed_ = static_cast<std::int64_t>(std::ceil(2.0 * scene.body.length / wave_speed / time_step));
   }
-  bool at_rest(const std::vector<double>& grid_velocity) {
-    const auto slow = [this](double v) { return std::abs(v) <= speed_; };
-    quiet_steps_ = std::all_of(grid_velocity.begin(), grid_velocity.end(), slow) ? quiet_steps_ + 1 : 0;
+  bool at_rest(const Particles& particles) {
+    bool quiet = true;
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      quiet = quiet && std::abs(particles.displacement[i] - before_[i]) <= longest_way_;
+      before_[i] = particles.displacement[i];
+    }
+    quiet_steps_ = quiet ? quiet_steps_ + 1 : 0;
     return quiet_steps_ >= steps_needed_;
   }
 
  private:
-  double speed_;
+  double longest_way_;  ///< m, in one step
+  std::vector<double> before_;
   std::int64_t steps_needed_;
   std::int64_t quiet_steps_ = 0;
 };
@@ -85,12 +92,12 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
 
   EnergyGuard guard(result.start, stepping);
   std::optional<RestWatch> rest;
-  if (scene.rest) rest.emplace(scene, stepping.time_step);
+  if (scene.rest) rest.emplace(scene, stepping.time_step, simulation.state().particles);
 
   for (std::int64_t step = 1; step <= stepping.steps && !result.at_rest; ++step) {
     simulation.step();
     result.steps = step;
-    result.at_rest = rest && rest->at_rest(simulation.state().fields.velocity);
+    result.at_rest = rest && rest->at_rest(simulation.state().particles);
     const bool last = step == stepping.steps || result.at_rest;
     const bool row_due = last || is_due(step, stepping.steps, scene.output.history);
     const bool snapshot_due = last || is_due(step, stepping.steps, scene.output.snapshots);

@@ -9,21 +9,24 @@
 namespace hompm {
 namespace {
 
-constexpr std::array step_phases{Phase::internal_force, Phase::external_force, Phase::damping_force,
-                                 Phase::acceleration,   Phase::velocity,       Phase::work,
-                                 Phase::motion};
+constexpr std::array force_phases{Phase::end_stress, Phase::internal_force, Phase::external_force,
+                                  Phase::damping_force, Phase::acceleration};
+constexpr std::array motion_phases{Phase::velocity, Phase::work, Phase::motion};
 
 void check_particle_count(const Scene& scene, const Scheme& scheme) {
-  if (scheme.quadrature == Quadrature::particles || scene.scheme.cells * scene.scheme.particles_per_cell >= 2)
-    return;
+  if (scheme.quadrature == Quadrature::particles) return;
+  const int particles = scene.scheme.cells * scene.scheme.particles_per_cell;
+  const int fewest = scheme.markers ? 4 : 2;  // with the markers six sites: enough for a spline of degree 5
+  if (particles >= fewest) return;
   throw SceneError(Origin{"scheme.particles_per_cell"},
-                   "1 particle in all: " + scheme.name + " reconstructs fields from at least 2");
+                   std::to_string(particles) + " particle(s) in all: " + scheme.name +
+                       " reconstructs fields from at least " + std::to_string(fewest));
 }
 
 }  // namespace
 
 Plan make_plan(const Scene& scene, const State& state) {
-  const Scheme& scheme = find_scheme(scene.scheme.name);
+  const Scheme scheme = choose_scheme(scene.scheme);
   check_particle_count(scene, scheme);
   PlanBuilder builder{.scene = scene, .state = state};
   builder.called_by = "scheme " + scheme.name;
@@ -41,11 +44,12 @@ Plan make_plan(const Scene& scene, const State& state) {
 
 Simulation::Simulation(const Scene& scene, double time_step)
     : material_(make_material(scene.material)),
-      moves_(scene.kinematics == Kinematics::finite),
-      state_(initial_state(scene)),
+      splitting_(splitting(choose_scheme(scene.scheme).integrator)),
+      state_(initial_state(scene, choose_scheme(scene.scheme).markers)),
       plan_(make_plan(scene, state_)) {
   state_.time_step = time_step;
   plan_.run(Phase::geometry, state_);
+  plan_.run(Phase::end_stress, state_);
   plan_.run(Phase::internal_force, state_);
   plan_.run(Phase::velocity, state_);
   const HistoryRow start = history(0.0);
@@ -53,27 +57,51 @@ Simulation::Simulation(const Scene& scene, double time_step)
   start_momentum_ = start.momentum;
 }
 
+double Simulation::closing_kick() const {
+  return splitting_.kicks.size() > splitting_.drifts.size() ? splitting_.kicks.back() : 0.0;
+}
+
 void Simulation::step() {
   ++state_.step;
   state_.time = static_cast<double>(state_.step) * state_.time_step;
-  if (moves_ && state_.step > 1) plan_.run(Phase::geometry, state_);
-  for (const Phase phase : step_phases) plan_.run(phase, state_);
+  for (std::size_t part = 0; part < splitting_.drifts.size(); ++part) {
+    const bool start_of_run = state_.step == 1 && part == 0;
+    const double left_from_last_step = part == 0 && !start_of_run ? closing_kick() : 0.0;
+    state_.kick = (left_from_last_step + splitting_.kicks[part]) * state_.time_step;
+    state_.drift = splitting_.drifts[part] * state_.time_step;
+    if (state_.moves && !start_of_run) plan_.run(Phase::geometry, state_);
+    for (const Phase phase : force_phases) plan_.run(phase, state_);
+    for (const Phase phase : motion_phases) plan_.run(phase, state_);
+  }
+}
+
+State Simulation::synchronised() const {
+  State state = state_;
+  if (closing_kick() == 0.0 || state.step == 0) return state;
+  state.kick = closing_kick() * state.time_step;
+  if (state.moves) plan_.run(Phase::geometry, state);
+  for (const Phase phase : force_phases) plan_.run(phase, state);
+  return state;
 }
 
 Snapshot Simulation::snapshot(double time) const {
-  const Particles& p = state_.particles;
-  Snapshot s{.time = time,
-             .reference_position = p.reference_position,
-             .position = p.position,
-             .displacement = p.displacement,
-             .velocity = p.velocity,
-             .volume = p.volume,
-             .density = p.mass,
-             .stress = p.stress,
-             .stretch = p.stretch};
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    s.density[i] = p.mass[i] / p.volume[i];
-    s.position[i] = p.reference_position[i] + p.displacement[i];
+  const State state = synchronised();
+  const Particles& p = state.particles;
+  Snapshot s;
+  s.time = time;
+  const auto reported = [&](const std::vector<double>& field) {
+    const auto skip = static_cast<std::ptrdiff_t>(p.markers);
+    return std::vector<double>(field.begin() + skip, field.end() - skip);
+  };
+  s.reference_position = reported(p.reference_position);
+  s.displacement = reported(p.displacement);
+  s.velocity = reported(p.velocity);
+  s.volume = reported(p.volume);
+  s.stress = reported(p.stress);
+  s.stretch = reported(p.stretch);
+  for (std::size_t i = p.markers; i < p.size() - p.markers; ++i) {
+    s.position.push_back(p.reference_position[i] + p.displacement[i]);
+    s.density.push_back(state.density(i));
   }
   return s;
 }
@@ -83,9 +111,10 @@ double Simulation::total_energy(const HistoryRow& row) const {
 }
 
 HistoryRow Simulation::history(double time) const {
-  const Particles& p = state_.particles;
+  const State state = synchronised();
+  const Particles& p = state.particles;
   HistoryRow row{
-      .time = time, .dissipated = state_.balance.dissipated, .external_work = state_.balance.external_work};
+      .time = time, .dissipated = state.balance.dissipated, .external_work = state.balance.external_work};
   for (std::size_t i = 0; i < p.size(); ++i) {
     row.mass += p.mass[i];
     row.momentum += p.mass[i] * p.velocity[i];
@@ -97,14 +126,14 @@ HistoryRow Simulation::history(double time) const {
           row.stored += p.reference_volume[i] * law.stored_energy(p.stretch[i]);
       },
       material_);
-  for (const auto& potential : plan_.potentials) row.gravity += potential(state_);
-  row.impulse = state_.balance.impulse;
+  for (const auto& potential : plan_.potentials) row.gravity += potential(state);
+  row.impulse = state.balance.impulse;
   row.residual = total_energy(row) - start_energy_;
   row.momentum_residual = row.momentum - start_momentum_ - row.impulse;
 
   double sum = 0.0;
   double magnitude = 0.0;
-  for (const double f : state_.fields.internal_force) {
+  for (const double f : state.fields.internal_force) {
     sum += f;
     magnitude += std::abs(f);
   }

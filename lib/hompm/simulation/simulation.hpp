@@ -3,6 +3,7 @@
 
 #include <hompm/materials/material.hpp>
 #include <hompm/plan/plan.hpp>
+#include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/records.hpp>
 
 namespace hompm {
@@ -30,9 +31,13 @@ class Simulation {
 
  private:
   [[nodiscard]] double total_energy(const HistoryRow& row) const;
+  /// The kick that a step leaves to the next, as part of the step: ½ in leapfrog.
+  [[nodiscard]] double closing_kick() const;
+  /// The state with that kick done: velocities and momentum at the time of the positions.
+  [[nodiscard]] State synchronised() const;
 
   Material material_;
-  bool moves_;
+  Splitting splitting_;
   State state_;
   Plan plan_;
   double start_energy_ = 0.0;

@@ -1,0 +1,125 @@
+// The consistent mass matrix of the grid, and its free ends.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <hompm/numerics/band_ldlt.hpp>
+#include <hompm/plan/invalid.hpp>
+
+namespace hompm::detail {
+
+/// M_ij = Σ_g w_g ρ N_i N_j, factorised for the functions that touch material and no essential condition
+/// fixes.
+///
+/// At a free end with extension the one function that lives on the cut span alone, whose mass vanishes with
+/// the cut, is tied to the P + 1 next to it so that polynomials of degree P are kept: c_j = Σ_{k=1}^{P+1}
+/// (−1)^{k+1} C(P+1, k) c_{j∓k} (extended B-splines: Höllig, Reif, Wipper 2001; for MPM Yamaguchi, Moriguchi,
+/// Terada 2021). The system is then Cᵀ M C with right-hand side Cᵀ f, of the same bandwidth.
+template <int P>
+class ConsistentMass {
+ public:
+  ConsistentMass(const State& state, bool extended)
+      : matrix_(static_cast<std::size_t>(state.grid.functions())), extended_(extended) {
+    double binomial = 1.0;
+    for (int k = 1; k <= P + 1; ++k) {
+      binomial = binomial * (P + 2 - k) / k;
+      extension_[static_cast<std::size_t>(k - 1)] = k % 2 == 1 ? binomial : -binomial;
+    }
+  }
+
+  void clear() { matrix_.clear(); }
+  /// Adds to M_ij and M_ji, j ≤ i; between `clear` and `factorise`.
+  void add(std::size_t i, std::size_t j, double amount) { matrix_.lower(i, i - j) += amount; }
+
+  /// Functions begin … end − 1 touch material. Throws `InvalidRun` when the matrix is not positive definite.
+  void factorise(const State& state, std::size_t begin, std::size_t end) {
+    touched_begin_ = begin_ = begin;
+    touched_end_ = end_ = end;
+    for (std::size_t k = 0; k <= P; ++k) {
+      left_row_[k] = matrix_.lower(begin + k, k);
+      right_row_[k] = matrix_.lower(end - 1, k);
+    }
+    fixed_left_ = state.ends.left == End::fixed;
+    fixed_right_ = state.ends.right == End::fixed;
+    tied_left_ = extended_ && !fixed_left_;
+    tied_right_ = extended_ && !fixed_right_;
+    if (end - begin < 2 * (P + 2)) {
+      // Too few functions to tie: a body of a cell or two has no inside to extend from.
+      tied_left_ = tied_right_ = false;
+    }
+    if (tied_left_) tie(begin, +1);
+    if (tied_right_) tie(end - 1, -1);
+    if (fixed_left_ || tied_left_) ++begin_;
+    if (fixed_right_ || tied_right_) --end_;
+    if (const std::size_t row = matrix_.factorise(begin_, end_); row != end_) throw_singular_mass(state, row);
+  }
+
+  /// Solves M x = b for the field `x`, which holds b on entry; fixed functions and those without material get
+  /// zero.
+  void solve(std::vector<double>& x) const {
+    if (tied_left_) gather_tied(x, touched_begin_, +1);
+    if (tied_right_) gather_tied(x, touched_end_ - 1, -1);
+    std::fill_n(x.begin(), begin_, 0.0);
+    std::fill(x.begin() + static_cast<std::ptrdiff_t>(end_), x.end(), 0.0);
+    matrix_.solve(begin_, end_, x);
+    if (tied_left_) x[touched_begin_] = tied_value(x, touched_begin_, +1);
+    if (tied_right_) x[touched_end_ - 1] = tied_value(x, touched_end_ - 1, -1);
+  }
+
+  /// Σ_j M_ij a_j for the fixed function at the left or right end: what of the force there the motion takes.
+  [[nodiscard]] double inertia_at_left_end(const std::vector<double>& a) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k <= P; ++k) sum += left_row_[k] * a[touched_begin_ + k];
+    return sum;
+  }
+  [[nodiscard]] double inertia_at_right_end(const std::vector<double>& a) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k <= P; ++k) sum += right_row_[k] * a[touched_end_ - 1 - k];
+    return sum;
+  }
+
+ private:
+  static std::size_t next(std::size_t j, std::size_t k, int direction) {
+    return direction > 0 ? j + k : j - k;
+  }
+
+  double& at(std::size_t i, std::size_t j) {
+    return i > j ? matrix_.lower(i, i - j) : matrix_.lower(j, j - i);
+  }
+
+  /// Cᵀ M C for the tied function j: row and column j go to the functions it is tied to.
+  void tie(std::size_t j, int direction) {
+    std::array<double, P + 2> coupling{};  // M_{j, j∓k}
+    for (std::size_t k = 0; k <= P; ++k) coupling[k] = at(j, next(j, k, direction));
+    for (std::size_t a = 1; a <= P + 1; ++a)
+      for (std::size_t b = 1; b <= a; ++b) {
+        const double ea = extension_[a - 1];
+        const double eb = extension_[b - 1];
+        at(next(j, a, direction), next(j, b, direction)) +=
+            ea * coupling[b] + eb * coupling[a] + ea * eb * coupling[0];
+      }
+  }
+
+  void gather_tied(std::vector<double>& b, std::size_t j, int direction) const {
+    for (std::size_t k = 1; k <= P + 1; ++k) b[next(j, k, direction)] += extension_[k - 1] * b[j];
+  }
+
+  [[nodiscard]] double tied_value(const std::vector<double>& x, std::size_t j, int direction) const {
+    double sum = 0.0;
+    for (std::size_t k = 1; k <= P + 1; ++k) sum += extension_[k - 1] * x[next(j, k, direction)];
+    return sum;
+  }
+
+  numerics::BandLdlt<P> matrix_;
+  bool extended_;
+  std::array<double, P + 1> extension_{};
+  std::array<double, P + 1> left_row_{}, right_row_{};
+  bool fixed_left_ = false, fixed_right_ = false, tied_left_ = false, tied_right_ = false;
+  std::size_t touched_begin_ = 0, touched_end_ = 0;  ///< functions that touch material
+  std::size_t begin_ = 0, end_ = 0;                  ///< unknowns of the system
+};
+
+}  // namespace hompm::detail
