@@ -1,3 +1,4 @@
+#include <system_error>
 #include <utility>
 
 #include <hompm/error.hpp>
@@ -36,5 +37,9 @@ SceneError::SceneError(const Origin& origin, const std::string& message)
 
 InvalidRun::InvalidRun(std::int64_t step_, double time_, std::int64_t particle_, const std::string& reason)
     : Error(invalid_text(step_, time_, particle_, reason)), step(step_), time(time_), particle(particle_) {}
+
+FileError::FileError(std::string_view action, const std::filesystem::path& path, int error_number)
+    : Error("cannot " + std::string(action) + " " + path.string() + ": " +
+            std::generic_category().message(error_number)) {}
 
 }  // namespace hompm

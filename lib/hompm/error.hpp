@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hompm {
@@ -57,6 +59,8 @@ class InvalidRun : public Error {
 class FileError : public Error {
  public:
   using Error::Error;
+  /// "cannot <action> <path>: <the system's reason for error_number>".
+  FileError(std::string_view action, const std::filesystem::path& path, int error_number);
 };
 
 }  // namespace hompm

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/output/csv.hpp>
 #include <hompm/output/run_folder.hpp>
@@ -26,7 +27,7 @@ constexpr const char* own_names[] = {"run.json",      "timing.json",        "sce
 
 void remove_file(const fs::path& path) {
   if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR) {
-    throw detail::file_error("replace", path, errno);
+    throw FileError("replace", path, errno);
   }
 }
 
@@ -47,7 +48,7 @@ void remove_earlier_run(const fs::path& folder) {
     if (is_snapshot_name(entry->path().filename().string())) snapshots.push_back(entry->path());
   }
   const bool no_folder = error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
-  if (error && !no_folder) throw detail::file_error("read", folder / "vtk", error.value());
+  if (error && !no_folder) throw FileError("read", folder / "vtk", error.value());
   for (const auto& snapshot : snapshots) remove_file(snapshot);
   for (const char* name : {"vtk", "invalid"}) ::rmdir((folder / name).c_str());  // stays when it is not empty
 }

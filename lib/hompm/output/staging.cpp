@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <hompm/error.hpp>
 #include <hompm/output/staging.hpp>
 
 namespace hompm::detail {
@@ -16,7 +17,7 @@ bool create_folder(const fs::path& folder) {
   const int reason = errno;
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return false;
-  throw file_error("create the folder", folder, reason == EEXIST ? ENOTDIR : reason);
+  throw FileError("create the folder", folder, reason == EEXIST ? ENOTDIR : reason);
 }
 
 /// The staging folder of this process. A number is appended when another run of the same process id (in
@@ -74,7 +75,7 @@ TextFile StagingFolder::create(const std::string& name) {
 void StagingFolder::move_into_place(const std::string& name) {
   const fs::path target = folder_ / name;
   create_folder(target.parent_path());
-  if (std::rename((staging_ / name).c_str(), target.c_str()) != 0) throw file_error("write", target, errno);
+  if (std::rename((staging_ / name).c_str(), target.c_str()) != 0) throw FileError("write", target, errno);
   names_.erase(name);
 }
 

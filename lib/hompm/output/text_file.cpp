@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/output/text_file.hpp>
 
@@ -15,15 +16,10 @@ constexpr std::size_t chunk = 1 << 18;
 
 }  // namespace
 
-FileError file_error(std::string_view action, const std::filesystem::path& path, int error_number) {
-  return FileError("cannot " + std::string(action) + " " + path.string() + ": " +
-                   std::generic_category().message(error_number));
-}
-
 TextFile::TextFile(const std::filesystem::path& path, std::filesystem::path shown)
     : shown_(std::move(shown)),
       descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0) throw file_error("write", shown_, errno);
+  if (descriptor_ < 0) throw FileError("write", shown_, errno);
 }
 
 TextFile::~TextFile() {
@@ -48,7 +44,7 @@ void TextFile::flush() {
   while (!rest.empty()) {
     const auto written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw file_error("write", shown_, errno);
+    if (written < 0) throw FileError("write", shown_, errno);
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
   buffer_.clear();
@@ -58,7 +54,7 @@ void TextFile::close() {
   if (descriptor_ < 0) return;
   flush();
   // Network file systems report a full disk only here. A descriptor is gone even when closing fails.
-  if (::close(std::exchange(descriptor_, -1)) != 0) throw file_error("write", shown_, errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) throw FileError("write", shown_, errno);
 }
 
 }  // namespace hompm::detail

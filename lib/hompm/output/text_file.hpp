@@ -6,12 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include <hompm/error.hpp>
-
 namespace hompm::detail {
-
-/// "cannot <action> <path>: <the system's reason for error_number>".
-FileError file_error(std::string_view action, const std::filesystem::path& path, int error_number);
 
 /// What is written may stay in the buffer until `close`, so only `close` says that all of it reached the
 /// file.

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <hompm/error.hpp>
-#include <hompm/output/text_file.hpp>
 #include <hompm/simulation/columns.hpp>
 #include <hompm/verify/compare.hpp>
 #include <hompm/verify/csv_table.hpp>
@@ -44,14 +43,14 @@ const std::array<Table, 3>& tables() {
 bool is_there(const fs::path& path) {
   std::error_code error;
   const bool found = fs::exists(path, error);
-  if (error) throw detail::file_error("read", path, error.value());
+  if (error) throw FileError("read", path, error.value());
   return found;
 }
 
 void require_folder(const fs::path& path) {
-  if (!is_there(path)) throw detail::file_error("read", path, ENOENT);
+  if (!is_there(path)) throw FileError("read", path, ENOENT);
   std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) throw detail::file_error("read", path, ENOTDIR);
+  if (!fs::is_directory(path, ignored)) throw FileError("read", path, ENOTDIR);
 }
 
 std::vector<Tolerance> tolerances_of(const Table& table, const std::map<std::string, Tolerance>& tolerances) {

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <hompm/error.hpp>
-#include <hompm/output/text_file.hpp>
 #include <hompm/verify/line_reader.hpp>
 
 namespace hompm::detail {
@@ -22,7 +21,7 @@ LineReader::LineReader(std::filesystem::path path)
     : path_(std::move(path)),
       descriptor_(::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)),
       buffer_(buffer_size) {
-  if (descriptor_ < 0) throw file_error("read", path_, errno);
+  if (descriptor_ < 0) throw FileError("read", path_, errno);
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(descriptor_);
@@ -71,7 +70,7 @@ bool LineReader::fill() {
   while (true) {
     const auto count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw file_error("read", path_, errno);
+    if (count < 0) throw FileError("read", path_, errno);
     end_ += static_cast<std::size_t>(count);
     return count > 0;
   }
