@@ -2,8 +2,8 @@
 # Measures which lines and functions of lib/ the tests reach, writes build/coverage/report, and fails below the thresholds.
 set -eu
 cd "$(dirname "$0")/.."
-least_lines=95
-least_functions=95
+least_lines=98
+least_functions=99
 
 cli/setup.sh --tests
 cmake --preset coverage >/dev/null
@@ -11,7 +11,7 @@ cmake --build --preset coverage
 find build/coverage -name '*.gcda' -delete
 rm -f build/coverage/missed.txt
 # The others run the same code, only longer.
-ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|docs"
+ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|docs|cost"
 
 cd build/coverage
 lcov --quiet --capture --directory . --output-file all.info 2>/dev/null
