@@ -81,7 +81,7 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
     if (simulation.plan()[phase].empty()) continue;
     text += title + "\n";
     for (const auto& stage : simulation.plan()[phase]) {
-      text += "  " + padded(std::to_string(++number) + ".", 4) + padded(stage.name, 46) + "for " +
+      text += "  " + padded(std::to_string(++number) + ".", 4) + padded(stage.name, 50) + "for " +
               stage.called_by + "\n";
       if (!stage.arrays.empty()) text += padded("", 8) + "owns, " + stage.arrays + "\n";
     }

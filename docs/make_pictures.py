@@ -19,7 +19,8 @@ import make_tables  # noqa: E402
 
 PICTURES = make_tables.ROOT / "docs/pictures"
 # Okabe and Ito's colours, which everybody can tell apart; the shapes differ, too.
-STYLES = {"classical": ("#D55E00", 7), "bspline": ("#0072B2", 5), "tielen2017": ("#009E73", 9)}
+STYLES = {"classical": ("#D55E00", 7), "bspline": ("#0072B2", 5), "tielen2017": ("#009E73", 9),
+          "high-order": ("#CC79A7", 13)}
 
 START = """
 set encoding utf8
@@ -36,56 +37,60 @@ def block(name, rows):
 
 
 def bar_large(tools):
-    """Errors of the large bar against the number of cells, with a line of second order."""
+    """Errors of the large bar against the number of cells, with lines of second and higher order."""
     reports = make_tables.study(tools, "bar-large")
     script = START.format(size="920,480", name="bar-large")
     fields = ("displacement", "stress")
     for scheme in STYLES:
         rows = [[str(report["cells"]), *(make_tables.short(make_tables.error_of(report, field)) for field in fields)]
                 for report in reports[scheme]]
-        script += block(scheme, rows)
+        script += block(scheme.replace("-", "_"), rows)
     script += """
 set logscale x 2
 set logscale y 10
 set xrange [13:310]
-set yrange [1.5e-5:2]
+set yrange [5e-13:2]
 set xtics (16, 32, 64, 128, 256)
 set format y "10^{%T}"
 set xlabel "cells"
-set multiplot layout 1,2 title "Large bar, t = 4 s: classical diverges, bspline stalls, tielen2017 is of second order" font ",17" offset 0,-0.2
+set multiplot layout 1,2 title "Large bar, t = 4 s; high-order with p = 3" font ",17" offset 0,-0.2
 """
     for column, field in enumerate(fields, start=2):
         script += f'set title "{field}" offset 0,-0.5\nset ylabel "{"relative L2 error" if column == 2 else ""}"\n'
-        script += "set key at graph 0.03,0.02 left bottom Left reverse samplen 2 spacing 1\n" if column == 2 else "unset key\n"
-        curves = [f'${scheme} using 1:{column} with linespoints linewidth 2.5 pointsize 0.8 pointtype {point} '
+        script += "set key at graph 0.03,0.02 left bottom Left reverse samplen 2 spacing 0.9\n" if column == 3 else "unset key\n"
+        curves = [f'${scheme.replace("-", "_")} using 1:{column} with linespoints linewidth 2.5 pointsize 0.8 pointtype {point} '
                   f'linecolor "{colour}" title "{scheme}"' for scheme, (colour, point) in STYLES.items()]
-        beside = 0.5 * make_tables.error_of(reports["tielen2017"][2], field)
-        curves.append(f'[64:256] {beside:.3g}*({make_tables.CELLS[2]}.0/x)**2 with lines linewidth 1.5 dashtype 2 linecolor "#606060" title "second order"')
-        script += "plot " + ", \\\n     ".join(curves) + "\n"
+        for scheme, slope, dash in (("tielen2017", 2, 2), ("high-order", 4 if column == 2 else 3, 3)):
+            beside = 0.4 * make_tables.error_of(reports[scheme][2], field)
+            curves.append(f'[64:256] {beside:.3g}*({make_tables.CELLS[2]}.0/x)**{slope} with lines linewidth 1.5 dashtype {dash} '
+                          f'linecolor "#606060" notitle')
+            script += f'set label {slope} "order {slope}" at 100,{0.2 * beside * (make_tables.CELLS[2] / 100) ** slope:.3g} right textcolor "#606060"\n'
+        script += "plot " + ", \\\n     ".join(curves) + "\nunset label\n"
     return script + "unset multiplot\n"
 
 
 def column_settled(tools):
     """Particle stresses over the height of the settled column, and the closed form."""
-    script = START.format(size="920,480", name="column-settled")
+    script = START.format(size="1100,480", name="column-settled")
+    notes = {}
     for scheme in STYLES:
         report, folder = tools.report("--case", "column", "--variant", "settled", "--scheme", scheme)
         with open(folder / "stress.csv", newline="", encoding="ascii") as file:
             rows = [row for row in csv.DictReader(file) if float(row["time"]) == report["end_time"]]
-        script += block(scheme, [[f"{float(row['stress']) / 1000:.4f}", f"{float(row['X']):.4f}"] for row in rows])
+        notes[scheme] = "at rest" if report["at_rest"] else f"not at rest, t = {report['end_time']:g} s"
+        script += block(scheme.replace("-", "_"), [[f"{float(row['stress']) / 1000:.4f}", f"{float(row['X']):.4f}"] for row in rows])
     script += block("exact", [["-9.81", "0"], ["0", "1"]])  # σ = −ρ0 g (H − X) is a straight line
     script += """
 set xrange [-12:2]
 set yrange [0:1]
 set xtics -10,5,0
 set xlabel "stress σ, kPa"
-set key at graph 0.03,0.97 left top Left reverse samplen 1.5 spacing 1.2
-set multiplot layout 1,3 title "Settled column, 32 cells of 4 particles, base compressed to half its length" font ",17" offset 0,-0.2
+unset key
+set multiplot layout 1,4 title "Settled column, 32 cells of 4 particles; dots: particles, line: exact" font ",17" offset 0,-0.2
 """
     for number, (scheme, (colour, _)) in enumerate(STYLES.items()):
-        note = "not at rest, t = 20 s" if scheme == "classical" else "at rest"
-        script += f'set title "{scheme} ({note})" offset 0,-0.5\nset ylabel "{"reference position X, m" if number == 0 else ""}"\n'
-        script += (f'plot ${scheme} using 1:2 with points pointtype 7 pointsize 0.35 linecolor "{colour}" title "particles", \\\n'
+        script += f'set title "{scheme}\\n{notes[scheme]}" offset 0,-0.5\nset ylabel "{"reference position X, m" if number == 0 else ""}"\n'
+        script += (f'plot ${scheme.replace("-", "_")} using 1:2 with points pointtype 7 pointsize 0.35 linecolor "{colour}" title "particles", \\\n'
                    '     $exact using 1:2 with lines linewidth 1.5 linecolor "#000000" title "exact"\n')
     return script + "unset multiplot\n"
 

@@ -25,12 +25,15 @@ sys.dont_write_bytecode = True
 import stability_limits  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SCHEMES = ["classical", "bspline", "tielen2017"]
+SCHEMES = ["classical", "bspline", "tielen2017", "high-order"]
 CELLS = [16, 32, 64, 128, 256]
-STUDIES = {
-    "bar-large": ["--case", "bar", "--variant", "large", "--end-time", "4", "--time-step", "1e-4"],
-    "column-large": ["--case", "column", "--variant", "large", "--end-time", "0.5", "--time-step", "1e-5"],
+STUDIES = {  # the case, and the steps of the schemes of first order in time
+    "bar-large": (["--case", "bar", "--variant", "large", "--end-time", "4"], ["--time-step", "1e-4"]),
+    "column-large": (["--case", "column", "--variant", "large", "--end-time", "0.5"], ["--time-step", "1e-5"]),
 }
+# Halving these steps changes the errors of the large bar by 4 % at most: the order in space is seen.
+FOURTH_ORDER = ["--courant", "0.2", "--set", "scheme.time_integrator=blanes-moan"]
+DEGREES = [2, 3, 4, 5]
 
 
 class Tools:
@@ -39,6 +42,7 @@ class Tools:
     def __init__(self, folder, work):
         self.run_tool = folder / "hompm-run"
         self.work = pathlib.Path(work)
+        self.known = {}  # reports, by their options
 
     def text(self, *options):
         done = subprocess.run([self.run_tool, *map(str, options)], capture_output=True, text=True, check=False, cwd=self.work)
@@ -58,13 +62,19 @@ class Tools:
     def reports(self, runs):
         """The run.json of many runs, in their order."""
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            return list(pool.map(lambda options: self.report(*options)[0], runs))
+            new = list({tuple(run) for run in runs} - set(self.known))
+            self.known.update(zip(new, pool.map(lambda options: self.report(*options)[0], new)))
+        return [self.known[tuple(run)] for run in runs]
+
+
+def study_run(name, scheme, cells):
+    case, steps = STUDIES[name]
+    return [*case, *(FOURTH_ORDER if scheme == "high-order" else steps), "--scheme", scheme, "--cells", cells]
 
 
 def study(tools, name):
     """{scheme: [run.json for each number of cells]}"""
-    runs = [[*STUDIES[name], "--scheme", scheme, "--cells", cells] for scheme in SCHEMES for cells in CELLS]
-    reports = iter(tools.reports(runs))
+    reports = iter(tools.reports([study_run(name, scheme, cells) for scheme in SCHEMES for cells in CELLS]))
     return {scheme: [next(reports) for _ in CELLS] for scheme in SCHEMES}
 
 
@@ -94,26 +104,76 @@ def error_tables(tools, name):
             for scheme in SCHEMES:
                 error = error_of(reports[scheme][i], field)
                 before = error_of(reports[scheme][i - 1], field) if i > 0 else None
-                row += [short(error), f"{math.log2(before / error):.1f}".replace("-", "−") if before else ""]
+                row += [short(error), order(before, error) if before else ""]
             rows.append(row)
         header = ["cells"] + [word for scheme in SCHEMES for word in (f"`{scheme}`", "order")]
         lines += ["", f"Relative L2 error of the {field}:", "", *table(header, rows, range(len(header)))]
     return lines[1:]
 
 
+def order(before, error):
+    return f"{math.log2(before / error):.1f}".replace("-", "−")
+
+
+def degree_tables(tools):
+    """The large bar by high-order of each degree."""
+    cells = [8, 16, 32, 64]
+    runs = [[*study_run("bar-large", "high-order", count), "--degree", degree] for degree in DEGREES for count in cells]
+    reports = iter(tools.reports(runs))
+    by_degree = {degree: [next(reports) for _ in cells] for degree in DEGREES}
+    lines = []
+    for field in ("displacement", "stress"):
+        errors = {degree: [error_of(report, field) for report in by_degree[degree]] for degree in DEGREES}
+        rows = [[count, *(word for of in errors.values() for word in (short(of[i]), order(of[i - 1], of[i]) if i else ""))]
+                for i, count in enumerate(cells)]
+        header = ["cells"] + [word for degree in DEGREES for word in (f"p = {degree}", "order")]
+        lines += ["", f"Relative L2 error of the {field}:", "", *table(header, rows, range(len(header)))]
+    residuals = [f"{report['momentum']['largest_residual']:.1e}".replace("e-0", "e-") for report in by_degree[3]]
+    lines += ["", "Largest momentum residual, kg/(m s), of 15.9 at the start:", "",
+              *table(["cells", *cells], [["p = 3", *residuals]], range(1, 5))]
+    return lines[1:]
+
+
+SETTLED = {"local": ["--case", "column", "--variant", "settled"], "mass": ["--scene", "settled.toml"]}
+
+
+def settled_scene(tools):
+    """The scene in docs/benchmarks.md, for `SETTLED`."""
+    text = re.search(r"```toml\n(# settled\.toml\n.*?)```", (ROOT / "docs/benchmarks.md").read_text(), re.DOTALL).group(1)
+    (tools.work / "settled.toml").write_text(text)
+
+
+def settled_words(report):
+    """Displacement error and worst stress error over the weight ρ g H."""
+    if not report["at_rest"]:
+        return ["–", "–"]
+    return [short(error_of(report, "displacement")), short(report["errors"]["stress"]["max"] / (1000.0 * 9.81 * 1.0))]
+
+
 def settled_table(tools):
-    runs = [["--case", "column", "--variant", "settled", "--scheme", scheme, "--cells", cells]
-            for scheme in SCHEMES for cells in (16, 32, 64)]
+    settled_scene(tools)
     rows = []
-    for report in tools.reports(runs):
-        row = [f"`{report['scheme']}`", report["cells"]]
-        if report["at_rest"]:
-            weight = 1000.0 * 9.81 * 1.0
-            row += [f"{report['end_time']:.2f}", short(error_of(report, "displacement")), short(report["errors"]["stress"]["max"] / weight)]
-        else:
-            row += [f"not by {report['end_time']:g}", "–", "–"]
-        rows.append(row)
-    return table(["scheme", "cells", "at rest at t, s", "displacement, relative L2", "worst stress error over ρgH"], rows, range(1, 5))
+    for damping, scene in SETTLED.items():
+        runs = [[*scene, "--scheme", scheme, "--cells", cells] for scheme in SCHEMES for cells in (16, 32, 64)]
+        for report in tools.reports(runs):
+            rest = f"{report['end_time']:.2f}" if report["at_rest"] else f"not by {report['end_time']:g}"
+            rows.append([damping, f"`{report['scheme']}`", report["cells"], rest, *settled_words(report)])
+    return table(["damping", "scheme", "cells", "at rest at t, s", "displacement, relative L2", "worst stress error over ρgH"], rows, range(2, 6))
+
+
+def reach(tools):
+    """Errors of each scheme in the three large cases."""
+    settled_scene(tools)
+    kinds = [(scheme, []) for scheme in SCHEMES[:-1]] + [(SCHEMES[-1], ["--degree", degree]) for degree in DEGREES]
+    rows = []
+    for scheme, degree in kinds:
+        bar, column = tools.reports([[*study_run(name, scheme, 64), *degree] for name in STUDIES])
+        settled = tools.reports([[*scene, "--scheme", scheme, "--cells", 32, *degree] for scene in SETTLED.values()])
+        at_rest = [report for report in settled if report["at_rest"]]
+        best = min(at_rest, key=lambda report: error_of(report, "displacement")) if at_rest else settled[0]
+        rows.append([f"`{scheme}`", bar["degree"], *(short(error_of(report, field)) for report in (bar, column) for field in ("displacement", "stress")),
+                     *settled_words(best)])
+    return table(["scheme", "p", "bar: u", "bar: σ", "column: u", "column: σ", "settled: u", "settled: worst σ/ρgH"], rows, range(1, 8))
 
 
 def only(pattern):
@@ -143,15 +203,17 @@ def degrees(row):
 
 
 def schemes(_tools):
-    rows = [[f"`{row['name']}`", degrees(row), row["summary"], row["source"].replace("Moller", "Möller")] for row in scheme_rows()]
+    rows = [[f"`{row['name']}`", degrees(row), row["summary"],
+             row["source"].replace("Moller", "Möller").replace("docs/method.md", "[method](docs/method.md#high-order)")] for row in scheme_rows()]
     return table(["scheme", "degree p", "what it is", "source"], rows)
 
 
 def choices(_tools):
-    words = {"particles": "at the particles", "reconstructed": "cubic spline + Gauss points", "lumped": "lumped",
-             "consistent": "consistent", "incremental": "incremental", "euler_cromer": "Euler–Cromer", "cut_span": "cut span"}
+    words = {"particles": "at the particles", "reconstructed": "spline + Gauss points", "lumped": "lumped",
+             "consistent": "consistent", "incremental": "incremental", "euler_cromer": "Euler–Cromer", "cut_span": "cut span",
+             "from_positions": "λ from positions", "extension": "cut span + extension", "true": "yes", "false": "–"}
     keys = {"quadrature": "quadrature of σ", "acceleration_mass": "mass for a", "velocity_mass": "mass for v",
-            "stress_update": "stress update", "integrator": "time", "free_end": "free end"}
+            "stress_update": "stress update", "integrator": "time", "free_end": "free end", "markers": "markers", "relaxes": "relaxation"}
     rows = []
     for row in scheme_rows():
         said = dict(row, free_end="–") if row["free_end"] == "particles" else row
@@ -187,13 +249,14 @@ def limits(tools):
     rows = []
     ends = [("fixed", "fixed", "fixed"), ("margin", "free, grid goes on", "free"), ("cut", "free, knots end there", None)]
     for end, words, right in ends:
-        for scheme, mass in (("bspline", "lumped"), ("tielen2017", "consistent")):
-            exact = [stability_limits.courant(degree, end, mass == "consistent") for degree in range(1, 6)]
+        for scheme, mass in (("bspline", "lumped, lumped"), ("tielen2017", "lumped, consistent"), ("high-order", "consistent, consistent")):
+            exact = [stability_limits.courant(degree, end, *mass.split(", ")) for degree in range(1, 6)]
             rows.append([mass, words, "exact", *(f"{value:.3f}" for value in exact)])
             if right:
-                computed = [courant_limit(tools, scheme, degree, 4, right) for degree in range(1, 6)]
-                rows.append([mass, words, f"`{scheme}`, 4 particles per cell", *(f"{value:.3f}" for value in computed)])
-    return table(["mass for v", "right end", "integrals", *(f"p = {p}" for p in range(1, 6))], rows, range(3, 8))
+                lowest = 2 if scheme == "high-order" else 1
+                computed = [courant_limit(tools, scheme, degree, 4, right) for degree in range(lowest, 6)]
+                rows.append([mass, words, f"`{scheme}`, 4 particles per cell", *["–"] * (lowest - 1), *(f"{value:.3f}" for value in computed)])
+    return table(["mass for a, v", "right end", "integrals", *(f"p = {p}" for p in range(1, 6))], rows, range(3, 8))
 
 
 def limits_p1(tools):
@@ -204,7 +267,7 @@ def limits_p1(tools):
 
 # From the ground up.
 ROOMS = {
-    "numerics": "mathematics without mechanics: spline space, cubic splines, Gauss rules, band solver, rounded elementary functions",
+    "numerics": "mathematics without mechanics: spline space, interpolating splines, Gauss rules, band solver, rounded elementary functions",
     "scene": "what is simulated, as plain data",
     "materials": "stress, tangent, modulus, stored energy and inverse of each law",
     "plan": "the stages of a step and the state they work on",
@@ -258,7 +321,7 @@ PARTS = {
     "rooms": rooms, "mistake": mistake,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
-    "column-settled": settled_table,
+    "column-settled": settled_table, "degrees": degree_tables, "reach": reach,
 }
 PART = re.compile(r"<!-- generated by docs/make_tables\.py: (\S+) -->\n(.*?)<!-- end of \1 -->", re.DOTALL)
 

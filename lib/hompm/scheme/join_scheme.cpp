@@ -213,7 +213,7 @@ void join_motion(const Scheme& scheme, const Material& material, PlanBuilder& bu
       material);
 }
 
-/// Half a period of the first mode by default: fast against the motion of interest, slow against the step.
+/// By default the first angular frequency between fixed ends: the result hardly depends on it.
 double relaxation_rate(const Scene& scene) {
   const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
   return scene.scheme.relaxation_rate.value_or(numerics::pi * wave_speed / scene.body.length);
