@@ -46,7 +46,7 @@ class ConsistentMass {
     fixed_right_ = state.ends.right == End::fixed;
     tied_left_ = extended_ && !fixed_left_;
     tied_right_ = extended_ && !fixed_right_;
-    if (end - begin < 2 * (P + 2)) {
+    if (end - begin < 2 * (std::size_t{P} + 2)) {
       // Too few functions to tie: a body of a cell or two has no inside to extend from.
       tied_left_ = tied_right_ = false;
     }
