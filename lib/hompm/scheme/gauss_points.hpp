@@ -9,7 +9,7 @@
 
 namespace hompm::detail {
 
-/// Each span is split into two halves with max(2, P) points in each (Tielen et al. 2017 use 2 for P = 2), and
+/// Each span is split into two halves with `PerHalf` points in each (Tielen et al. 2017 use 2 for P = 2), and
 /// a span that the material fills partly is integrated over the filled part alone. Points, weights and basis
 /// are kept per cell and computed again only where the filled part of a cell has changed.
 template <int P, int PerHalf>

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <type_traits>
 
 #include <hompm/numerics/cubic_spline.hpp>
 #include <hompm/numerics/elementary.hpp>
@@ -16,6 +17,11 @@ using detail::gather;
 using detail::Reconstruction;
 using detail::scatter;
 using Shared = std::shared_ptr<Reconstruction>;
+
+/// The splines through the particle data of high-order: a cubic carries them up to P = 3.
+template <int P>
+using DataSplines =
+    std::conditional_t<(P > 3), numerics::InterpolatingSplineSites<5>, numerics::CubicSplineSites>;
 
 /// With markers these are the ends of the body, without the ends of the outer particles.
 void find_boundaries(State& state) {
@@ -50,15 +56,13 @@ void relax(const State& state, double rate, const std::vector<double>& projected
 template <int P>
 Shared make_reconstruction(const Scheme& scheme, const State& state) {
   using numerics::CubicSplineSites;
-  using Quintic = numerics::InterpolatingSplineSites<5>;
   const bool extended = scheme.free_end == FreeEnd::extension;
   // Tielen et al. (2017) take 2 points in each half of a cell for P = 2.
   if (!extended)
     return std::make_shared<detail::SplineReconstruction<P, CubicSplineSites, std::max(2, P)>>(state, false);
   // Products of two functions are of degree 2P: P + 1 points integrate them, and a cubic carries data up to P
   // = 3.
-  using Splines = std::conditional_t<(P > 3), Quintic, CubicSplineSites>;
-  return std::make_shared<detail::SplineReconstruction<P, Splines, P + 1>>(state, true);
+  return std::make_shared<detail::SplineReconstruction<P, DataSplines<P>, P + 1>>(state, true);
 }
 
 template <int P>
@@ -200,9 +204,8 @@ void join_motion(const Scheme& scheme, const Material& material, PlanBuilder& bu
       particles.displacement[p] +=
           state.drift * gather<P>(state, state.basis.values, state.fields.velocity, p);
   });
-  using Splines =
-      std::conditional_t<(P > 3), numerics::InterpolatingSplineSites<5>, numerics::CubicSplineSites>;
-  const auto stretch = std::make_shared<detail::StretchFromPositions<Splines>>(builder.state.particles);
+  const auto stretch =
+      std::make_shared<detail::StretchFromPositions<DataSplines<P>>>(builder.state.particles);
   std::visit(
       [&](const auto& law) {
         builder.add(
