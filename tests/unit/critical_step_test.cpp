@@ -63,7 +63,7 @@ double dense_limit(const hompm::Scheme& scheme, int degree, int cells, int per_c
         spline(row, p) = splines.evaluate(splines.weights(x, 0), fit);
       }
     }
-  const bool reconstructs = scheme.quadrature == hompm::Quadrature::reconstructed;
+  const bool reconstructs = scheme.choices.quadrature == hompm::Quadrature::reconstructed;
   const Matrix force =
       reconstructs ? Matrix(bg.transpose() * weight.asDiagonal() * spline) : Matrix(mass * b.transpose());
   // The functions that move: not the first, which is fixed; not the last where that end is fixed, too, or
@@ -72,7 +72,7 @@ double dense_limit(const hompm::Scheme& scheme, int degree, int cells, int per_c
   const auto free = [&](const Matrix& m) { return Matrix(m.middleRows(1, inner)); };
   const Matrix accelerate = lumped.segment(1, inner).cwiseInverse().asDiagonal() * free(force);
   Matrix project;
-  if (scheme.velocity_mass == hompm::MassForm::consistent) {
+  if (scheme.choices.velocity_projection == hompm::VelocityProjection::consistent) {
     const Matrix consistent = ng.transpose() * weight.asDiagonal() * ng;
     project = consistent.block(1, 1, inner, inner)
                   .ldlt()

@@ -36,7 +36,7 @@ Scene column(const std::string& law) {
   scene.body.length = 1.0;
   scene.material = {law, 1000.0, 1e5};
   scene.ends.right = End::free;
-  scene.effects.push_back(effect("gravity", {{"acceleration", -9.81}}));
+  scene.effects.push_back(effect("gravity", {{"acceleration", -9.81}, {"ramp_time", 0.0}}));
   return scene;
 }
 
@@ -243,7 +243,7 @@ TEST_CASE("equilibrium of every law, from either side", "[reference]") {
     CHECK(std::abs(quotient - stretch) < 1e-9);  // rounding over the distance 2e-6
 
     scene.ends = {End::free, End::fixed};
-    scene.effects = {effect("gravity", {{"acceleration", 9.81}}),
+    scene.effects = {effect("gravity", {{"acceleration", 9.81}, {"ramp_time", 0.0}}),
                      effect("traction", {{"end", "left"}, {"value", 2e3}})};
     std::vector<double> mirrored;
     for (std::size_t i = X.size(); i-- > 0;) mirrored.push_back(1.0 - X[i]);
@@ -257,9 +257,9 @@ TEST_CASE("equilibrium of every law, from either side", "[reference]") {
 
 TEST_CASE("loads of one kind add up", "[reference]") {
   Scene twice = column("rate");
-  twice.effects = {effect("gravity", {{"acceleration", -4.0}}), effect("gravity", {{"acceleration", -4.0}})};
+  twice.effects = {effect("gravity", {{"acceleration", -4.0}, {"ramp_time", 0.0}}), effect("gravity", {{"acceleration", -4.0}, {"ramp_time", 0.0}})};
   Scene once = column("rate");
-  once.effects = {effect("gravity", {{"acceleration", -8.0}})};
+  once.effects = {effect("gravity", {{"acceleration", -8.0}, {"ramp_time", 0.0}})};
   const std::vector<double> X = points(1.0, 7);
   CHECK(reference(twice).at(0.3, X).displacement == reference(once).at(0.3, X).displacement);
 }

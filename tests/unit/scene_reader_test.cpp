@@ -181,7 +181,16 @@ cells = 9
 particles_per_cell = 4
 margin_cells = 4
 courant = 0.5
+quadrature = "reconstructed"
+acceleration_mass = "lumped"
+velocity_projection = "consistent"
+transfer = "flip"
+stress_update = "incremental"
 time_integrator = "euler-cromer"
+free_end = "cut-span"
+markers = false
+conserve = "nothing"
+relaxation_rate = 0.0  # 1/s
 allow_unstable = false
 
 [output]

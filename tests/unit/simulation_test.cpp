@@ -119,7 +119,7 @@ TEST_CASE("internal forces sum to zero, and momentum changes by the impulse alon
   // Lumped: to the rounding of 5000 steps. The consistent mass is that of the density spline, not of the
   // particles: their momenta differ by its interpolation and quadrature error, which falls with the grid
   // (docs/method.md).
-  const bool lumped = scheme.acceleration_mass == hompm::MassForm::lumped;
+  const bool lumped = scheme.choices.acceleration_mass == hompm::MassForm::lumped;
   CHECK(result.largest_momentum_residual <= (lumped ? 1e-12 : 1e-4) * result.largest_momentum);
   CHECK(result.end.mass == result.start.mass);
 }

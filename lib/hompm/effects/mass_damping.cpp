@@ -7,6 +7,8 @@ namespace {
 /// f_i = −β ∫ρ v N_i: b = −β v in the continuum. The row sum M_i v_i instead would be unstable with
 /// consistent mass, whose inverse is large for the modes that alternate from cell to cell.
 void join(const EffectSpec& spec, PlanBuilder& builder) {
+  if (builder.update_momentum)
+    builder.add(Phase::damping_force, "momentum of the grid velocity", builder.update_momentum);
   join_grid_damping(
       builder, "mass-proportional damping",
       [rate = spec.number("rate")](double momentum, double, double) { return -rate * momentum; });

@@ -54,6 +54,9 @@ struct PlanBuilder {
   std::string called_by = {};  ///< set before each effect or choice joins
   /// The scheme asks effects to add what they apply at the ends to State::left_stress and right_stress.
   bool wants_end_stress = false;
+  /// Sets GridFields::momentum to ∫ρ v N_i of the grid velocity; empty where the scheme's projection has done
+  /// so.
+  std::function<void(State&)> update_momentum = {};
 
   void add(Phase phase, std::string name, std::function<void(State&)> run, std::string arrays = {}) {
     plan.phases[static_cast<std::size_t>(phase)].push_back(

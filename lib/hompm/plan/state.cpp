@@ -13,7 +13,8 @@ numerics::SplineSpace make_grid(const Scene& scene) {
 
 }  // namespace
 
-State initial_state(const Scene& scene, bool markers) {
+State initial_state(const Scene& scene) {
+  const bool markers = scene.scheme.choices.markers;
   State state{.grid = make_grid(scene),
               .ends = scene.ends,
               .particles = {},

@@ -45,8 +45,8 @@ struct GridFields {
   std::vector<double> internal_force;  ///< Pa
   std::vector<double> force;           ///< out of balance: external − internal, Pa
   std::vector<double> acceleration;    ///< m/s²
-  std::vector<double> momentum;        ///< ∫ρ v N_i of the last projection, kg/(m s)
-  std::vector<double> velocity;        ///< m/s, from it
+  std::vector<double> momentum;        ///< ∫ρ v N_i, kg/(m s), see PlanBuilder::update_momentum
+  std::vector<double> velocity;        ///< of the last projection, m/s
 };
 
 /// Sums over the steps so far, for the balances.
@@ -58,7 +58,8 @@ struct Balance {
 
 struct State {
   std::int64_t step = 0;
-  double time = 0.0;       ///< s
+  double time = 0.0;       ///< s, at the end of the step under way
+  double position_time = 0.0;  ///< s, of the positions at which its forces act
   double time_step = 0.0;  ///< s
   double kick = 0.0;       ///< s, by which the part of the step under way changes velocities
   double drift = 0.0;      ///< s, by which it changes positions
@@ -86,8 +87,8 @@ struct State {
 };
 
 /// The state of a scene at t = 0: particles at (2i − 1)/(2k) of each cell with equal volumes, initial
-/// velocity, no stress; the grid reaches `margin_cells` beyond each free end. `markers`: one massless
-/// particle at each end. Allocates every array a step needs.
-State initial_state(const Scene& scene, bool markers);
+/// velocity, no stress; the grid reaches `margin_cells` beyond each free end; markers where the scene's scheme
+/// has them. Allocates every array a step needs.
+State initial_state(const Scene& scene);
 
 }  // namespace hompm

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include <hompm/numerics/smooth_step.hpp>
 #include <hompm/reference/loads.hpp>
 
 namespace hompm {
@@ -6,7 +9,7 @@ std::optional<Loads> loads_of(const Scene& scene) {
   Loads loads;
   for (const EffectSpec& effect : scene.effects) {
     if (effect.type == "gravity") {
-      loads.acceleration += effect.number("acceleration");
+      loads.gravity.push_back({effect.number("acceleration"), effect.number("ramp_time")});
     } else if (effect.type == "mass-damping") {
       loads.damping_rate += effect.number("rate");
     } else if (effect.type == "local-damping") {
@@ -19,6 +22,22 @@ std::optional<Loads> loads_of(const Scene& scene) {
     }
   }
   return loads;
+}
+
+double Loads::acceleration(double time) const {
+  double sum = 0.0;
+  for (const BodyForce& force : gravity) sum += force.acceleration * numerics::ramp(time, force.ramp_time);
+  return sum;
+}
+
+double Loads::full_acceleration() const {
+  double sum = 0.0;
+  for (const BodyForce& force : gravity) sum += force.acceleration;
+  return sum;
+}
+
+bool Loads::ramped() const {
+  return std::ranges::any_of(gravity, [](const BodyForce& force) { return force.ramp_time > 0.0; });
 }
 
 }  // namespace hompm

@@ -51,7 +51,7 @@ class Lines {
   }
 
   /// The right-hand side, as odeint calls it.
-  void operator()(const State& state, State& rate, double /*time*/) {
+  void operator()(const State& state, State& rate, double time) {
     const std::size_t n = degree_ + 1;
     const double* u = state.data();
     const double* v = u + nodes_;
@@ -78,8 +78,9 @@ class Lines {
     valid_ = valid_ && valid;
     force[0] -= loads_.left_stress;
     force[nodes_ - 1] += loads_.right_stress;
+    const double acceleration = loads_.acceleration(time);
     for (std::size_t i = 0; i < nodes_; ++i) {
-      force[i] = force[i] * inverse_mass_[i] + loads_.acceleration - loads_.damping_rate * v[i];
+      force[i] = force[i] * inverse_mass_[i] + acceleration - loads_.damping_rate * v[i];
     }
     if (ends_.left == End::fixed) force[0] = rate[0] = 0.0;
     if (ends_.right == End::fixed) force[nodes_ - 1] = rate[nodes_ - 1] = 0.0;
@@ -153,8 +154,11 @@ class Lines {
 }  // namespace
 
 Resolution suitable_resolution(const Scene& scene, const Loads& loads) {
-  const bool smooth =
-      scene.ends.left == End::fixed && scene.ends.right == End::fixed && loads.acceleration == 0.0;
+  const bool sudden = std::ranges::any_of(
+      loads.gravity, [](const BodyForce& force) { return force.ramp_time == 0.0 && force.acceleration != 0.0; });
+  const bool fixed = scene.ends.left == End::fixed && scene.ends.right == End::fixed;
+  const bool pulled = loads.left_stress != 0.0 || loads.right_stress != 0.0;
+  const bool smooth = !sudden && (fixed || (!pulled && !scene.initial_velocity));
   const int mode = scene.initial_velocity ? std::max(scene.initial_velocity->mode, 1) : 1;
   return smooth ? Resolution{8 + 8 * mode, 12, 0.25} : Resolution{std::max(96, 8 * mode), 4, 1.0};
 }

@@ -40,7 +40,7 @@ Reference estimated(std::string description, FieldsAt fine, FieldsAt coarse) {
 /// A scene seen from the other side: X becomes L − X.
 Loads mirrored(const Loads& loads) {
   Loads other = loads;
-  other.acceleration = -loads.acceleration;
+  for (BodyForce& force : other.gravity) force.acceleration = -force.acceleration;
   std::swap(other.left_stress, other.right_stress);
   return other;
 }
@@ -67,19 +67,19 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
     };
     return exact("static equilibrium, valid once at rest (quadrature of the inverted law)", at);
   }
-  const bool only_gravity =
-      loads.acceleration != 0.0 && loads.damping_rate == 0.0 && loads.right_stress == 0.0;
-  if (!only_gravity || loads.local_damping || scene.initial_velocity) return std::nullopt;
+  const double acceleration = loads.full_acceleration();
+  const bool only_gravity = acceleration != 0.0 && loads.damping_rate == 0.0 && loads.right_stress == 0.0;
+  if (!only_gravity || loads.ramped() || loads.local_damping || scene.initial_velocity) return std::nullopt;
   const double speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
   if (scene.material.law == "linear") {
     const LinearBody body{scene.body.length, scene.material.density, speed};
-    const auto at = [body, b = loads.acceleration](double time, std::span<const double> X) {
+    const auto at = [body, b = acceleration](double time, std::span<const double> X) {
       return loaded_column(body, b, time, X);
     };
     return exact("column of small strains, d'Alembert's solution (Tielen et al. 2017)", at);
   }
   if (scene.material.law == "rate") {
-    const GasColumn column{scene.body.length, scene.material.density, speed, loads.acceleration};
+    const GasColumn column{scene.body.length, scene.material.density, speed, acceleration};
     return estimated("column of large strains, method of characteristics (extrapolated net, 8th order)",
                      gas_column(column, 32), gas_column(column, 16));
   }
@@ -87,7 +87,7 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
 }
 
 std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads) {
-  const bool free = loads.acceleration == 0.0 && loads.damping_rate == 0.0;
+  const bool free = loads.gravity.empty() && loads.damping_rate == 0.0;
   if (scene.material.law != "linear" || !free || !scene.initial_velocity) return std::nullopt;
   const LinearBody body{scene.body.length, scene.material.density,
                         std::sqrt(scene.material.youngs_modulus / scene.material.density)};

@@ -25,7 +25,7 @@ double stretch(const Law& law, double stress) {
 ReferenceFields static_equilibrium(const Scene& scene, const Loads& loads, std::span<const double> X) {
   static const numerics::GaussRule rule = numerics::gauss_legendre(10);
   const double length = scene.body.length;
-  const double weight = scene.material.density * loads.acceleration;
+  const double weight = scene.material.density * loads.full_acceleration();
   const double longest_panel = length / 64.0;
   const auto stress = [&](double x) { return loads.right_stress + weight * (length - x); };
 

@@ -6,7 +6,7 @@
 
 namespace hompm {
 
-/// Equilibrium of a body fixed at X = 0 and free at X = L, under loads.acceleration and loads.right_stress:
+/// Equilibrium of a body fixed at X = 0 and free at X = L, under the full gravity and loads.right_stress:
 /// from ∂σ/∂X + ρ0 b = 0 the stress is σ = σ_L + ρ0 b (L − X), the law gives λ(σ), and u = ∫ (λ − 1) dX by
 /// Gauss–Legendre quadrature, to rounding (derived in docs/method.md, with the closed form for the law
 /// `rate`). `X` in m, ascending. Throws `Error` where the law cannot carry the stress.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <hompm/error.hpp>
+#include <hompm/scene/scheme_choices.hpp>
 
 namespace hompm {
 
@@ -60,8 +61,8 @@ struct SchemeSpec {
   std::optional<double> time_step;        ///< s
   std::optional<double> courant;          ///< c Δt / h
   std::optional<double> step_fraction;    ///< Δt over the critical step of the scheme
-  std::string time_integrator;            ///< "" for the scheme's own
-  std::optional<double> relaxation_rate;  ///< 1/s, of the null space; none for the scheme's own
+  SchemeChoices choices;                  ///< those of the row `name`, but for what the scene says itself
+  double relaxation_rate = 0.0;           ///< 1/s, of the null space
   bool allow_unstable = false;            ///< run with a step above the critical one all the same
 };
 

@@ -1,8 +1,10 @@
 // Defaults that follow from other keys, and what keys demand of each other.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <tuple>
 
+#include <hompm/numerics/elementary.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
 #include <hompm/scheme/scheme.hpp>
@@ -63,14 +65,57 @@ void complete_margin(Reading& reading) {
   }
 }
 
-void complete_integration(Reading& reading, const Scheme& scheme) {
-  SchemeSpec& spec = reading.scene.scheme;
-  if (reading.silent_on("scheme.time_integrator"))
-    spec.time_integrator = integrator_names().at(static_cast<std::size_t>(scheme.integrator));
-  if (reading.has("scheme.relaxation_rate") && !scheme.relaxes)
-    reading.report(reading.said.where("scheme.relaxation_rate"),
-                   "`scheme.relaxation_rate`: the scheme " + scheme.name +
-                       " has no null-space relaxation; high-order has");
+bool is_choice(const KeyRow& row) { return row.standard == own_choice; }
+
+void complete_choices(Reading& reading, const Scheme& scheme) {
+  Scene own;
+  own.scheme.choices = scheme.choices;
+  const bool ready = reading.has("material.density") && reading.has("material.youngs_modulus") &&
+                     reading.has("body.length");
+  if (scheme.relaxes && ready) {
+    // The first angular frequency between fixed ends: the result hardly depends on it.
+    const MaterialSpec& material = reading.scene.material;
+    own.scheme.relaxation_rate =
+        numerics::pi * std::sqrt(material.youngs_modulus / material.density) / reading.scene.body.length;
+  }
+  for (const KeyRow& row : key_table())
+    if ((is_choice(row) || row.path == "scheme.relaxation_rate") && reading.silent_on(row.path))
+      copy_value(row, own, reading.scene);
+}
+
+/// Reports choices that do not go together, at the one the scene made itself.
+void check_choices(Reading& reading) {
+  const SchemeChoices& c = reading.scene.scheme.choices;
+  const auto demand_that = [&](bool met, const std::string& key, const std::string& message) {
+    if (met) return;
+    const std::string path = "scheme." + key;
+    const auto said = reading.silent_on(path) ? std::string("scheme.name") : path;
+    reading.report(reading.said.where(said), '`' + path + "` " + message);
+  };
+  const bool reconstructs = c.quadrature != Quadrature::particles;
+  const std::string needs_fields =
+      "needs reconstructed fields: `scheme.quadrature` must be \"reconstructed\" or \"reconstructed-exact\"";
+  demand_that(reconstructs || c.acceleration_mass == MassForm::lumped, "acceleration_mass",
+              "= \"consistent\" " + needs_fields);
+  demand_that(reconstructs || c.velocity_projection != VelocityProjection::consistent, "velocity_projection",
+              "= \"consistent\" " + needs_fields);
+  demand_that(reconstructs || c.free_end == FreeEnd::particles, "free_end",
+              "other than \"particles\" " + needs_fields);
+  demand_that(reconstructs || c.conserve != Conserve::cell_mass, "conserve",
+              "= \"cell-mass\" " + needs_fields);
+  demand_that(c.conserve != Conserve::momentum || c.acceleration_mass == MassForm::consistent, "conserve",
+              "= \"momentum\" corrects the consistent mass: `scheme.acceleration_mass` must be "
+              "\"consistent\"; lumped mass conserves momentum as it is");
+  demand_that(c.free_end != FreeEnd::extension || c.acceleration_mass == MassForm::consistent ||
+                  c.velocity_projection != VelocityProjection::lumped,
+              "free_end",
+              "= \"extension\" ties functions of a consistent mass: `scheme.acceleration_mass` or "
+              "`scheme.velocity_projection` must have one");
+  demand_that(
+      !(reading.scene.scheme.relaxation_rate > 0.0) || c.stress_update == StressUpdate::from_positions,
+      "relaxation_rate",
+      "moves particles: `scheme.stress_update` must be \"from-positions\", so that the stress follows; "
+      "high-order has it");
 }
 
 void check_particle_count(Reading& reading) {
@@ -118,7 +163,8 @@ void complete(Reading& reading) {
   if (scheme != schemes.end()) {
     complete_degree(reading, *scheme);
     complete_margin(reading);
-    complete_integration(reading, *scheme);
+    complete_choices(reading, *scheme);
+    check_choices(reading);
   }
   check_particle_count(reading);
   check_time_step(reading);

@@ -14,7 +14,9 @@
 namespace hompm::detail {
 
 /// The member of a Scene that holds the value of a key.
-using Slot = std::variant<double*, int*, bool*, std::string*, std::optional<double>*, End*, Kinematics*>;
+using Slot = std::variant<double*, int*, bool*, std::string*, std::optional<double>*, End*, Kinematics*,
+                          Quadrature*, MassForm*, VelocityProjection*, Transfer*, StressUpdate*,
+                          TimeIntegrator*, FreeEnd*, Conserve*>;
 
 enum class Absent {
   missing,   ///< an error
@@ -31,6 +33,9 @@ struct KeyRow {
   std::string meaning;
   Slot (*slot)(Scene&);
 };
+
+/// `KeyRow::standard` of the choices of a scheme (scene/scheme_choices.hpp).
+inline constexpr std::string_view own_choice = "the scheme's own";
 
 /// All keys, in the order in which they are written.
 const std::vector<KeyRow>& key_table();
@@ -56,6 +61,9 @@ std::vector<std::string> names_in(const std::string& path);
 
 /// Stores a value that the row's rule has accepted.
 void store(const KeyRow& row, const Content& value, Scene& scene);
+
+/// Gives `to` the value that `from` has.
+void copy_value(const KeyRow& row, Scene& from, Scene& to);
 
 /// The value as TOML text; "" where there is none.
 std::string load_text(const KeyRow& row, Scene& scene);

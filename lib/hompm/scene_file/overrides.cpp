@@ -2,6 +2,7 @@
 #include <charconv>
 #include <optional>
 
+#include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
 
 namespace hompm::detail {
@@ -85,8 +86,9 @@ void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
   auto& values = reading.said.values;
   if (said.contains("scheme.name")) {
     // What suits one scheme need not suit another.
-    for (const char* key : {"degree", "margin_cells", "time_integrator", "relaxation_rate"})
-      values.erase(std::string("scheme.") + key);
+    for (const KeyRow& row : key_table())
+      if (row.path.starts_with("scheme.") && row.absent == Absent::derived && !row.standard.empty())
+        values.erase(row.path);
   }
   const std::vector<std::string> steps{"scheme.time_step", "scheme.courant", "scheme.step_fraction"};
   for (const std::string& step : steps) {

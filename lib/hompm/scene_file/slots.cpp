@@ -57,6 +57,10 @@ void store(const KeyRow& row, const Content& value, Scene& scene) {
   std::visit(Storer{row, value}, row.slot(scene));
 }
 
+void copy_value(const KeyRow& row, Scene& from, Scene& to) {
+  std::visit([&](auto* slot) { *slot = *std::get<decltype(slot)>(row.slot(from)); }, row.slot(to));
+}
+
 std::string load_text(const KeyRow& row, Scene& scene) { return std::visit(Loader{row}, row.slot(scene)); }
 
 }  // namespace hompm::detail

@@ -105,9 +105,11 @@ std::optional<Content> accepted(const ValueRule& rule, const Content& content) {
 }
 
 std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 15;  // a message is one line that one reads
+  const std::size_t shown = words.size() > most ? most - 3 : words.size();
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : ", ") + words[i];
+  return shown == words.size() ? text : text + " and " + std::to_string(words.size() - shown) + " more";
 }
 
 }  // namespace hompm::detail

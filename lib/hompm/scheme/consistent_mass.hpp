@@ -11,8 +11,8 @@
 
 namespace hompm::detail {
 
-/// M_ij = Σ_g w_g ρ N_i N_j, factorised for the functions that touch material and no essential condition
-/// fixes.
+/// A matrix Σ w N_i N_j over the functions of the grid, factorised for those that touch material and no
+/// essential condition fixes. With w = w_g ρ at Gauss points it is the consistent mass.
 ///
 /// At a free end with extension the one function that lives on the cut span alone, whose mass vanishes with
 /// the cut, is tied to the P + 1 next to it so that polynomials of degree P are kept: c_j = Σ_{k=1}^{P+1}
@@ -58,8 +58,10 @@ class ConsistentMass {
   }
 
   /// Solves M x = b for the field `x`, which holds b on entry; fixed functions and those without material get
-  /// zero.
-  void solve(std::vector<double>& x) const {
+  /// zero. Returns what the conditions at fixed ends add to Σ b: the sum of the reactions.
+  double solve(std::vector<double>& x) const {
+    const double left = x[touched_begin_];
+    const double right = x[touched_end_ - 1];
     if (tied_left_) gather_tied(x, touched_begin_, +1);
     if (tied_right_) gather_tied(x, touched_end_ - 1, -1);
     std::fill_n(x.begin(), begin_, 0.0);
@@ -67,8 +69,14 @@ class ConsistentMass {
     matrix_.solve(begin_, end_, x);
     if (tied_left_) x[touched_begin_] = tied_value(x, touched_begin_, +1);
     if (tied_right_) x[touched_end_ - 1] = tied_value(x, touched_end_ - 1, -1);
+
+    double reaction = 0.0;
+    if (fixed_left_) reaction += inertia_at_left_end(x) - left;
+    if (fixed_right_) reaction += inertia_at_right_end(x) - right;
+    return reaction;
   }
 
+ private:
   /// Σ_j M_ij a_j for the fixed function at the left or right end: what of the force there the motion takes.
   [[nodiscard]] double inertia_at_left_end(const std::vector<double>& a) const {
     double sum = 0.0;
@@ -81,7 +89,6 @@ class ConsistentMass {
     return sum;
   }
 
- private:
   static std::size_t next(std::size_t j, std::size_t k, int direction) {
     return direction > 0 ? j + k : j - k;
   }

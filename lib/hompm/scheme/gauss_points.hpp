@@ -39,6 +39,7 @@ class GaussPoints {
     }
   }
 
+  [[nodiscard]] std::size_t cells() const { return filled_.size(); }  ///< of the grid
   /// The cells that hold material.
   [[nodiscard]] int first_cell() const { return first_; }
   [[nodiscard]] int last_cell() const { return last_; }

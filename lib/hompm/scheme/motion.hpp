@@ -1,8 +1,13 @@
 // The last part of a step: the grid velocity moves the particles and strains them.
 #pragma once
 
+#include <memory>
+
+#include <hompm/materials/material.hpp>
+#include <hompm/plan/plan.hpp>
+#include <hompm/scheme/data_splines.hpp>
+#include <hompm/scheme/least_squares.hpp>
 #include <hompm/scheme/particle_transfer.hpp>
-#include <hompm/scheme/scheme.hpp>
 
 namespace hompm::detail {
 
@@ -58,5 +63,59 @@ class StretchFromPositions {
   Splines splines_;
   typename Splines::Fit fit_;
 };
+
+/// u_p += Δt/τ (Σ N_i û_i − u_p), û the nearest field on the grid: what of the displacement the grid cannot see
+/// decays with the rate 1/τ of the scene.
+template <int P>
+void join_relaxation(PlanBuilder& builder, const std::shared_ptr<LeastSquares<P>>& least_squares) {
+  const auto projected = std::make_shared<std::vector<double>>(builder.state.fields.mass.size());
+  builder.add(
+      Phase::motion, "null-space relaxation of the displacement",
+      [rate = builder.scene.scheme.relaxation_rate, least_squares, projected](State& state) {
+        auto& u = state.particles.displacement;
+        least_squares->project(state, u, *projected);
+        const double part = state.drift * rate;
+        for (std::size_t p = 0; p < u.size(); ++p)
+          u[p] += part * (gather<P>(state, state.basis.values, *projected, p) - u[p]);
+      },
+      "per function: projected displacement");
+}
+
+template <class Splines, Kinematics kinematics>
+void join_stretch_from_positions(const Material& material, PlanBuilder& builder) {
+  const auto stretch = std::make_shared<StretchFromPositions<Splines>>(builder.state.particles);
+  std::visit(
+      [&](const auto& law) {
+        builder.add(
+            Phase::motion, "stretch from positions, stress",
+            [law, stretch](State& state) { stretch->template update<kinematics>(state, law); },
+            "per particle: spline matrix of the reference positions");
+      },
+      material);
+}
+
+template <int P, Kinematics kinematics>
+void join_motion(const Material& material, PlanBuilder& builder) {
+  const SchemeChoices& choices = builder.scene.scheme.choices;
+  if (choices.stress_update == StressUpdate::incremental) {
+    std::visit(
+        [&](const auto& law) {
+          builder.add(Phase::motion, "displacement, stretch, stress",
+                      [law](State& state) { move_by_increments<P, kinematics>(state, law); });
+        },
+        material);
+    return;
+  }
+  builder.add(Phase::motion, "displacement", [](State& state) {
+    Particles& particles = state.particles;
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      particles.displacement[p] +=
+          state.drift * gather<P>(state, state.basis.values, state.fields.velocity, p);
+  });
+  if (choices.quadrature == Quadrature::reconstructed_exact)
+    join_stretch_from_positions<MatchingSplines<P>, kinematics>(material, builder);
+  else
+    join_stretch_from_positions<numerics::CubicSplineSites, kinematics>(material, builder);
+}
 
 }  // namespace hompm::detail

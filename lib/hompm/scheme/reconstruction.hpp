@@ -17,10 +17,11 @@ class Reconstruction {
   virtual ~Reconstruction() = default;
   /// Splines and Gauss points for the present positions. Throws `InvalidRun` for particles out of order.
   virtual void update_sites(const State& state) = 0;
-  /// ρ(x_g) w_g from the spline through the particle densities. Throws `InvalidRun` where the spline is not
-  /// positive.
+  /// ρ(x_g) w_g from the spline through the particle densities, shifted in each cell where the scheme keeps
+  /// cell masses. Throws `InvalidRun` where the density is not positive.
   virtual void update_density(const State& state) = 0;
-  /// M_ij = Σ_g w_g ρ N_i N_j, factorised (consistent_mass.hpp).
+  /// M_ij = Σ_g w_g ρ N_i N_j, factorised (consistent_mass.hpp). Where the scheme keeps momentum the diagonal
+  /// takes what row sums lack to Σ m_p N_i, which must stand in `state.fields.mass`.
   virtual void update_consistent_mass(const State& state) = 0;
   /// M_i = Σ_g w_g ρ N_i: row sums of the consistent mass.
   virtual void row_sums(std::vector<double>& mass) = 0;
@@ -29,6 +30,8 @@ class Reconstruction {
   /// b_i = Σ_g w_g ρ q(x_g) N_i(x_g), q the spline through the particle data: solving with the mass projects
   /// q.
   virtual void weighted_integrals(const std::vector<double>& data, std::vector<double>& b) = 0;
+  /// b_i = Σ_g w_g ρ v(x_g) N_i(x_g) of a field on the grid.
+  virtual void momentum(const std::vector<double>& velocity, std::vector<double>& b) = 0;
   /// Solves Σ_j M_ij a_j = f_i in place; returns the sum of the reactions at fixed ends (Pa).
   virtual double solve(std::vector<double>& force_to_acceleration) = 0;
 };
@@ -38,15 +41,17 @@ class Reconstruction {
 template <int P, class Splines, int PerHalf>
 class SplineReconstruction final : public Reconstruction {
  public:
-  SplineReconstruction(const State& state, bool extended)
+  SplineReconstruction(const State& state, const SchemeChoices& choices)
       : splines_(state.particles.size()),
         fit_(state.particles.size()),
         gauss_(state.grid),
         weights_(gauss_.capacity()),
         mass_weight_(gauss_.capacity()),
         density_(state.particles.size()),
-        mass_(state, extended),
-        ends_(state.ends) {}
+        cell_mass_(choices.conserve == Conserve::cell_mass ? gauss_.cells() : 0),
+        row_sums_(choices.conserve == Conserve::momentum ? state.fields.mass.size() : 0),
+        mass_(state, choices.free_end == FreeEnd::extension),
+        conserve_(choices.conserve) {}
 
   void update_sites(const State& state) override {
     if (const std::size_t bad = splines_.factorise(state.particles.position)) throw_out_of_order(state, bad);
@@ -66,6 +71,7 @@ class SplineReconstruction final : public Reconstruction {
       if (!(density > 0.0)) throw_negative_density(state, gauss_.position(g), density);
       mass_weight_[g] = density * gauss_.weight(g);
     }
+    if (conserve_ == Conserve::cell_mass) keep_cell_masses(state);
   }
 
   void update_consistent_mass(const State& state) override {
@@ -83,8 +89,13 @@ class SplineReconstruction final : public Reconstruction {
       for (std::size_t i = 0; i <= P; ++i)
         for (std::size_t j = 0; j <= i; ++j) mass_.add(first + i, first + j, block[i][j]);
     }
-    mass_.factorise(state, static_cast<std::size_t>(gauss_.first_cell()),
-                    static_cast<std::size_t>(gauss_.last_cell()) + P + 1);
+    const auto begin = static_cast<std::size_t>(gauss_.first_cell());
+    const auto end = static_cast<std::size_t>(gauss_.last_cell()) + P + 1;
+    if (conserve_ == Conserve::momentum) {
+      row_sums(row_sums_);
+      for (std::size_t i = begin; i < end; ++i) mass_.add(i, i, state.fields.mass[i] - row_sums_[i]);
+    }
+    mass_.factorise(state, begin, end);
   }
 
   void row_sums(std::vector<double>& mass) override {
@@ -111,14 +122,22 @@ class SplineReconstruction final : public Reconstruction {
         [&](std::size_t g) { return mass_weight_[g] * splines_.evaluate(weights_[g], fit_); });
   }
 
+  void momentum(const std::vector<double>& velocity, std::vector<double>& b) override {
+    std::fill(b.begin(), b.end(), 0.0);
+    for (int cell = gauss_.first_cell(); cell <= gauss_.last_cell(); ++cell) {
+      const double* v = &velocity[static_cast<std::size_t>(cell)];
+      double* target = &b[static_cast<std::size_t>(cell)];
+      for_points(cell, [&](std::size_t g) {
+        const double* n = gauss_.values(g);
+        double sum = 0.0;
+        for (int k = 0; k <= P; ++k) sum += n[k] * v[k];
+        for (int k = 0; k <= P; ++k) target[k] += mass_weight_[g] * sum * n[k];
+      });
+    }
+  }
+
   double solve(std::vector<double>& force_to_acceleration) override {
-    const double left = force_to_acceleration.front();
-    const double right = force_to_acceleration.back();
-    mass_.solve(force_to_acceleration);
-    double reaction = 0.0;
-    if (ends_.left == End::fixed) reaction += mass_.inertia_at_left_end(force_to_acceleration) - left;
-    if (ends_.right == End::fixed) reaction += mass_.inertia_at_right_end(force_to_acceleration) - right;
-    return reaction;
+    return mass_.solve(force_to_acceleration);
   }
 
  private:
@@ -143,14 +162,49 @@ class SplineReconstruction final : public Reconstruction {
     }
   }
 
+  /// Shifts the density so that its integral over each cell is the sum of the masses there. A cell without
+  /// particles, such as a narrow cut span, goes with the one before it.
+  void keep_cell_masses(const State& state) {
+    std::fill(cell_mass_.begin(), cell_mass_.end(), 0.0);
+    for (std::size_t p = 0; p < state.particles.size(); ++p)
+      cell_mass_[static_cast<std::size_t>(state.basis.first[p])] += state.particles.mass[p];
+    const auto mass_of = [&](int cell) { return cell_mass_[static_cast<std::size_t>(cell)]; };
+    int begin = gauss_.first_cell();
+    double mass = 0.0;
+    for (int cell = begin; cell <= gauss_.last_cell(); ++cell) {
+      mass += mass_of(cell);
+      const bool last = cell == gauss_.last_cell();
+      if (!last && (mass == 0.0 || mass_of(cell + 1) == 0.0)) continue;
+      shift_density(state, begin, cell, mass);
+      begin = cell + 1;
+      mass = 0.0;
+    }
+  }
+
+  void shift_density(const State& state, int begin, int last, double mass) {
+    const auto from = static_cast<std::size_t>(begin) * Points::per_cell;
+    const auto to = static_cast<std::size_t>(last + 1) * Points::per_cell;
+    double length = 0.0;
+    for (std::size_t g = from; g < to; ++g) {
+      mass -= mass_weight_[g];
+      length += gauss_.weight(g);
+    }
+    for (std::size_t g = from; g < to; ++g) {
+      mass_weight_[g] += mass / length * gauss_.weight(g);
+      if (!(mass_weight_[g] > 0.0))
+        throw_negative_density(state, gauss_.position(g), mass_weight_[g] / gauss_.weight(g));
+    }
+  }
+
   Splines splines_;
   typename Splines::Fit fit_;
   Points gauss_;
   std::vector<typename Splines::Weights> weights_;
   std::vector<double> mass_weight_;
   std::vector<double> density_;
+  std::vector<double> cell_mass_, row_sums_;
   ConsistentMass<P> mass_;
-  Ends ends_;
+  Conserve conserve_;
 };
 
 }  // namespace hompm::detail

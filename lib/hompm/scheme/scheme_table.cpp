@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <hompm/error.hpp>
 #include <hompm/scheme/scheme.hpp>
 
@@ -13,13 +11,15 @@ const std::vector<Scheme>& scheme_table() {
        .lowest_degree = 1,
        .highest_degree = 1,
        .default_degree = 1,
-       .quadrature = Quadrature::particles,
-       .acceleration_mass = MassForm::lumped,
-       .velocity_mass = MassForm::lumped,
-       .stress_update = StressUpdate::incremental,
-       .integrator = TimeIntegrator::euler_cromer,
-       .free_end = FreeEnd::particles,
-       .markers = false,
+       .choices = {.quadrature = Quadrature::particles,
+                   .acceleration_mass = MassForm::lumped,
+                   .velocity_projection = VelocityProjection::lumped,
+                   .transfer = Transfer::flip,
+                   .stress_update = StressUpdate::incremental,
+                   .time_integrator = TimeIntegrator::euler_cromer,
+                   .free_end = FreeEnd::particles,
+                   .markers = false,
+                   .conserve = Conserve::nothing},
        .relaxes = false},
       {.name = "bspline",
        .summary = "B-splines, particle quadrature",
@@ -27,13 +27,15 @@ const std::vector<Scheme>& scheme_table() {
        .lowest_degree = 1,
        .highest_degree = 5,
        .default_degree = 2,
-       .quadrature = Quadrature::particles,
-       .acceleration_mass = MassForm::lumped,
-       .velocity_mass = MassForm::lumped,
-       .stress_update = StressUpdate::incremental,
-       .integrator = TimeIntegrator::euler_cromer,
-       .free_end = FreeEnd::particles,
-       .markers = false,
+       .choices = {.quadrature = Quadrature::particles,
+                   .acceleration_mass = MassForm::lumped,
+                   .velocity_projection = VelocityProjection::lumped,
+                   .transfer = Transfer::flip,
+                   .stress_update = StressUpdate::incremental,
+                   .time_integrator = TimeIntegrator::euler_cromer,
+                   .free_end = FreeEnd::particles,
+                   .markers = false,
+                   .conserve = Conserve::nothing},
        .relaxes = false},
       {.name = "tielen2017",
        .summary = "B-splines, cubic-spline reconstruction, Gauss quadrature, consistent velocity",
@@ -41,13 +43,15 @@ const std::vector<Scheme>& scheme_table() {
        .lowest_degree = 1,
        .highest_degree = 5,
        .default_degree = 2,
-       .quadrature = Quadrature::reconstructed,
-       .acceleration_mass = MassForm::lumped,
-       .velocity_mass = MassForm::consistent,
-       .stress_update = StressUpdate::incremental,
-       .integrator = TimeIntegrator::euler_cromer,
-       .free_end = FreeEnd::cut_span,
-       .markers = false,
+       .choices = {.quadrature = Quadrature::reconstructed,
+                   .acceleration_mass = MassForm::lumped,
+                   .velocity_projection = VelocityProjection::consistent,
+                   .transfer = Transfer::flip,
+                   .stress_update = StressUpdate::incremental,
+                   .time_integrator = TimeIntegrator::euler_cromer,
+                   .free_end = FreeEnd::cut_span,
+                   .markers = false,
+                   .conserve = Conserve::nothing},
        .relaxes = false},
       {.name = "high-order",
        .summary = "consistent acceleration, stretch from positions, boundary markers, extension, leapfrog",
@@ -55,13 +59,15 @@ const std::vector<Scheme>& scheme_table() {
        .lowest_degree = 2,
        .highest_degree = 5,
        .default_degree = 3,
-       .quadrature = Quadrature::reconstructed,
-       .acceleration_mass = MassForm::consistent,
-       .velocity_mass = MassForm::consistent,
-       .stress_update = StressUpdate::from_positions,
-       .integrator = TimeIntegrator::leapfrog,
-       .free_end = FreeEnd::extension,
-       .markers = true,
+       .choices = {.quadrature = Quadrature::reconstructed_exact,
+                   .acceleration_mass = MassForm::consistent,
+                   .velocity_projection = VelocityProjection::least_squares,
+                   .transfer = Transfer::pic,
+                   .stress_update = StressUpdate::from_positions,
+                   .time_integrator = TimeIntegrator::leapfrog,
+                   .free_end = FreeEnd::extension,
+                   .markers = true,
+                   .conserve = Conserve::nothing},
        .relaxes = true},
   };
   return table;
@@ -89,29 +95,10 @@ const Splitting& splitting(TimeIntegrator integrator) {
   }
 }
 
-const std::vector<std::string>& integrator_names() {
-  static const std::vector<std::string> names{"euler-cromer", "leapfrog",
-                                              "blanes-moan"};  // in the order of the enum
-  return names;
-}
-
-TimeIntegrator find_integrator(const std::string& name) {
-  const auto& names = integrator_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw Error("there is no time integrator " + name);
-  return static_cast<TimeIntegrator>(found - names.begin());
-}
-
 const Scheme& find_scheme(const std::string& name) {
   for (const Scheme& scheme : scheme_table())
     if (scheme.name == name) return scheme;
   throw Error("there is no scheme " + name);
-}
-
-Scheme choose_scheme(const SchemeSpec& spec) {
-  Scheme scheme = find_scheme(spec.name);
-  if (!spec.time_integrator.empty()) scheme.integrator = find_integrator(spec.time_integrator);
-  return scheme;
 }
 
 }  // namespace hompm

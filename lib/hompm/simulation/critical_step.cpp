@@ -90,7 +90,7 @@ double critical_time_step(const Scene& scene) {
     for (const Phase phase : {Phase::velocity, Phase::motion}) simulation.plan().run(phase, state);
     stress = p.stress;
   }
-  return largest_stable_phase(splitting(choose_scheme(scene.scheme).integrator)) / std::sqrt(norm(stress));
+  return largest_stable_phase(splitting(scene.scheme.choices.time_integrator)) / std::sqrt(norm(stress));
 }
 
 }  // namespace hompm

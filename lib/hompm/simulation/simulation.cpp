@@ -13,10 +13,12 @@ constexpr std::array force_phases{Phase::end_stress, Phase::internal_force, Phas
                                   Phase::damping_force, Phase::acceleration};
 constexpr std::array motion_phases{Phase::velocity, Phase::work, Phase::motion};
 
-void check_particle_count(const Scene& scene, const Scheme& scheme) {
-  if (scheme.quadrature == Quadrature::particles) return;
-  const int particles = scene.scheme.cells * scene.scheme.particles_per_cell;
-  const int fewest = scheme.markers ? 4 : 2;  // with the markers six sites: enough for a spline of degree 5
+void check_particle_count(const SchemeSpec& scheme) {
+  const SchemeChoices& c = scheme.choices;
+  if (c.quadrature == Quadrature::particles && c.stress_update == StressUpdate::incremental) return;
+  const int particles = scheme.cells * scheme.particles_per_cell;
+  const bool quintic = c.quadrature == Quadrature::reconstructed_exact && scheme.degree > 3;
+  const int fewest = (quintic ? 6 : 2) - (c.markers ? 2 : 0);  // sites of a spline
   if (particles >= fewest) return;
   throw SceneError(Origin{"scheme.particles_per_cell"},
                    std::to_string(particles) + " particle(s) in all: " + scheme.name +
@@ -26,11 +28,10 @@ void check_particle_count(const Scene& scene, const Scheme& scheme) {
 }  // namespace
 
 Plan make_plan(const Scene& scene, const State& state) {
-  const Scheme scheme = choose_scheme(scene.scheme);
-  check_particle_count(scene, scheme);
+  check_particle_count(scene.scheme);
   PlanBuilder builder{.scene = scene, .state = state};
-  builder.called_by = "scheme " + scheme.name;
-  join_scheme(scheme, make_material(scene.material), builder);
+  builder.called_by = "scheme " + scene.scheme.name;
+  join_scheme(make_material(scene.material), builder);
   for (const EffectSpec& spec : scene.effects) {
     const auto& catalogue = effect_catalogue();
     const auto type =
@@ -44,8 +45,8 @@ Plan make_plan(const Scene& scene, const State& state) {
 
 Simulation::Simulation(const Scene& scene, double time_step)
     : material_(make_material(scene.material)),
-      splitting_(splitting(choose_scheme(scene.scheme).integrator)),
-      state_(initial_state(scene, choose_scheme(scene.scheme).markers)),
+      splitting_(splitting(scene.scheme.choices.time_integrator)),
+      state_(initial_state(scene)),
       plan_(make_plan(scene, state_)) {
   state_.time_step = time_step;
   plan_.run(Phase::geometry, state_);
@@ -63,12 +64,16 @@ double Simulation::closing_kick() const {
 
 void Simulation::step() {
   ++state_.step;
+  const double start = static_cast<double>(state_.step - 1) * state_.time_step;
   state_.time = static_cast<double>(state_.step) * state_.time_step;
+  double drifted = 0.0;
   for (std::size_t part = 0; part < splitting_.drifts.size(); ++part) {
     const bool start_of_run = state_.step == 1 && part == 0;
     const double left_from_last_step = part == 0 && !start_of_run ? closing_kick() : 0.0;
     state_.kick = (left_from_last_step + splitting_.kicks[part]) * state_.time_step;
     state_.drift = splitting_.drifts[part] * state_.time_step;
+    state_.position_time = start + drifted * state_.time_step;
+    drifted += splitting_.drifts[part];
     if (state_.moves && !start_of_run) plan_.run(Phase::geometry, state_);
     for (const Phase phase : force_phases) plan_.run(phase, state_);
     for (const Phase phase : motion_phases) plan_.run(phase, state_);
@@ -79,6 +84,7 @@ State Simulation::synchronised() const {
   State state = state_;
   if (closing_kick() == 0.0 || state.step == 0) return state;
   state.kick = closing_kick() * state.time_step;
+  state.position_time = state.time;
   if (state.moves) plan_.run(Phase::geometry, state);
   for (const Phase phase : force_phases) plan_.run(phase, state);
   return state;

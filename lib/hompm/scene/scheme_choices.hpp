@@ -1,0 +1,61 @@
+// The choices that make a scheme: each may be made on its own, a named scheme is a row of them.
+#pragma once
+
+namespace hompm {
+
+/// Where stress (and consistent mass) are integrated.
+enum class Quadrature {
+  particles,            ///< at the particles, with their volumes
+  reconstructed,        ///< at the Gauss points of Tielen et al. 2017, from cubic splines through particle data
+  reconstructed_exact,  ///< the same, with as many points and splines of such a degree as the basis asks for
+};
+enum class MassForm {
+  lumped,      ///< row sums over the particles
+  consistent,  ///< the full matrix, from the reconstructed density
+};
+/// Particle velocity to the grid.
+enum class VelocityProjection {
+  lumped,         ///< Σ m_p v_p N_i over the row sum
+  consistent,     ///< of the reconstructed ρ and v, with the consistent mass
+  least_squares,  ///< the grid velocity nearest to the particles': Σ m_p (Σ N_i v_i − v_p)² is least
+};
+/// What particles take back from the grid.
+enum class Transfer {
+  flip,  ///< the change of velocity
+  pic,   ///< the velocity
+};
+enum class StressUpdate {
+  incremental,  ///< σ += (dσ/dε) dε
+  from_positions,  ///< λ = ∂x/∂X of the spline through the positions, σ = σ(λ): nothing is summed up, nothing
+                   ///< drifts
+};
+enum class TimeIntegrator {
+  euler_cromer,  ///< first order: kick, drift
+  leapfrog,      ///< second order: velocities live at half steps; as many forces as Euler–Cromer
+  blanes_moan,   ///< fourth order: six kicks and drifts a step
+};
+enum class FreeEnd {
+  particles,  ///< nothing special: the quadrature is the particles'
+  cut_span,   ///< the last span is integrated up to the material boundary, half a particle beyond the last
+  extension,  ///< the same, and the function on the cut span alone tied to its neighbours
+};
+/// What the reconstructed density keeps of the particles' masses.
+enum class Conserve {
+  nothing,    ///< exactly; the masses agree to the order of the midpoint rule
+  cell_mass,  ///< ∫ρ over each cell is the sum of the masses there (Wobbes et al. 2019)
+  momentum,   ///< row sums of the mass matrix are Σ m_p N_i: forces change Σ m_p v_p by what they are
+};
+
+struct SchemeChoices {
+  Quadrature quadrature = Quadrature::particles;
+  MassForm acceleration_mass = MassForm::lumped;
+  VelocityProjection velocity_projection = VelocityProjection::lumped;
+  Transfer transfer = Transfer::flip;
+  StressUpdate stress_update = StressUpdate::incremental;
+  TimeIntegrator time_integrator = TimeIntegrator::euler_cromer;
+  FreeEnd free_end = FreeEnd::particles;
+  bool markers = false;  ///< massless particles mark the ends of the body
+  Conserve conserve = Conserve::nothing;
+};
+
+}  // namespace hompm

@@ -1,0 +1,62 @@
+// The field on the grid nearest to particle data.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <hompm/scheme/consistent_mass.hpp>
+#include <hompm/scheme/particle_transfer.hpp>
+
+namespace hompm::detail {
+
+/// The field q_i for which Σ_p w_p (Σ N_i q_i − q_p)² is least: (Σ_p w_p N_i N_j) q_j = Σ_p w_p N_i q_p, over
+/// the functions that no essential condition fixes. A projection to the last bit of arithmetic: fields of the
+/// grid pass it unchanged, polynomials up to degree P among them, and a smooth one is off by O(h^{P+1}) however
+/// coarse the particles are as a quadrature.
+///
+/// w_p is the mass, so that the projection of the velocity never adds kinetic energy and keeps the momentum.
+/// Markers, which have none, get a tenth of their neighbour's: a polynomial of degree 4 that reaches beyond
+/// the last particle to the end of the body is otherwise known too poorly (docs/method.md). With
+/// `Conserve::momentum` they get none.
+template <int P>
+class LeastSquares {
+ public:
+  LeastSquares(const State& state, const SchemeChoices& choices)
+      : normal_(state, choices.free_end == FreeEnd::extension),
+        weight_(state.particles.mass) {
+    if (!choices.markers || choices.conserve == Conserve::momentum) return;
+    constexpr double share = 0.1;
+    weight_.front() = share * weight_[1];
+    weight_.back() = share * weight_[weight_.size() - 2];
+  }
+
+  /// For the present basis at the particles. Throws `InvalidRun` when the particles do not determine a field.
+  void update(const State& state) {
+    normal_.clear();
+    constexpr std::size_t stencil = P + 1;
+    const auto& first = state.basis.first;
+    for (std::size_t p = 0; p < weight_.size(); ++p) {
+      const double* n = &state.basis.values[p * stencil];
+      const auto f = static_cast<std::size_t>(first[p]);
+      for (std::size_t i = 0; i < stencil; ++i) {
+        const double weighted = weight_[p] * n[i];
+        for (std::size_t j = 0; j <= i; ++j) normal_.add(f + i, f + j, weighted * n[j]);
+      }
+    }
+    normal_.factorise(state, static_cast<std::size_t>(first.front()),
+                      static_cast<std::size_t>(first.back()) + stencil);
+  }
+
+  /// The field for one entry of `data` per particle. Returns what fixed ends add to Σ w_p q_p.
+  double project(const State& state, const std::vector<double>& data, std::vector<double>& field) const {
+    std::fill(field.begin(), field.end(), 0.0);
+    scatter<P>(state, state.basis.values, field, [&](std::size_t p) { return weight_[p] * data[p]; });
+    return normal_.solve(field);
+  }
+
+ private:
+  ConsistentMass<P> normal_;
+  std::vector<double> weight_;
+};
+
+}  // namespace hompm::detail

@@ -1,0 +1,107 @@
+// From forces to the grid velocity, and what particles keep of it.
+#pragma once
+
+#include <memory>
+
+#include <hompm/plan/plan.hpp>
+#include <hompm/scheme/least_squares.hpp>
+#include <hompm/scheme/reconstruction.hpp>
+
+namespace hompm::detail {
+
+/// a_i = f_i / M_i; functions with no mass are inactive, and at a fixed end the reaction balances the force.
+void accelerate_lumped(State& state);
+
+/// Σ_p m_p v_p N_i
+template <int P>
+void sum_momentum(State& state) {
+  auto& momentum = state.fields.momentum;
+  std::fill(momentum.begin(), momentum.end(), 0.0);
+  const Particles& particles = state.particles;
+  scatter<P>(state, state.basis.values, momentum,
+             [&](std::size_t p) { return particles.mass[p] * particles.velocity[p]; });
+}
+
+/// v_i = Σ_p m_p v_p N_i / M_i; functions with no mass and fixed ends stand still.
+template <int P>
+void project_lumped(State& state) {
+  sum_momentum<P>(state);
+  GridFields& g = state.fields;
+  for (std::size_t i = 0; i < g.velocity.size(); ++i)
+    g.velocity[i] = g.mass[i] > 0.0 ? g.momentum[i] / g.mass[i] : 0.0;
+  if (state.ends.left == End::fixed) g.velocity.front() = 0.0;
+  if (state.ends.right == End::fixed) g.velocity.back() = 0.0;
+}
+
+double kinetic_energy(const Particles& particles);
+
+template <int P>
+void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
+  if (builder.scene.scheme.choices.acceleration_mass == MassForm::lumped) {
+    builder.add(Phase::acceleration, "grid acceleration, lumped mass", accelerate_lumped);
+  } else {
+    builder.add(Phase::acceleration, "grid acceleration, consistent mass", [splines](State& state) {
+      state.fields.acceleration = state.fields.force;
+      state.balance.impulse += state.kick * splines->solve(state.fields.acceleration);
+    });
+  }
+  builder.add(Phase::acceleration, "particle velocity (FLIP)", [](State& state) {
+    Particles& particles = state.particles;
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      particles.velocity[p] +=
+          state.kick * gather<P>(state, state.basis.values, state.fields.acceleration, p);
+  });
+}
+
+template <int P>
+void join_projection(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines,
+                     const std::shared_ptr<LeastSquares<P>>& least_squares) {
+  switch (builder.scene.scheme.choices.velocity_projection) {
+    case VelocityProjection::lumped:
+      builder.add(Phase::velocity, "grid velocity, lumped mass", project_lumped<P>);
+      return;
+    case VelocityProjection::consistent:
+      builder.add(Phase::velocity, "grid velocity, consistent mass", [splines](State& state) {
+        GridFields& g = state.fields;
+        splines->weighted_integrals(state.particles.velocity, g.momentum);
+        g.velocity = g.momentum;
+        splines->solve(g.velocity);
+      });
+      return;
+    case VelocityProjection::least_squares:
+      builder.add(Phase::velocity, "grid velocity, least squares", [least_squares](State& state) {
+        state.balance.impulse +=
+            least_squares->project(state, state.particles.velocity, state.fields.velocity);
+      });
+  }
+}
+
+/// v_p = Σ N_i v_i: nothing of the particle velocity is hidden from the grid. What that takes of Σ ½ m v² is
+/// booked as dissipated.
+template <int P>
+void join_pic(PlanBuilder& builder) {
+  builder.add(Phase::velocity, "particle velocity (PIC)", [](State& state) {
+    Particles& particles = state.particles;
+    const double before = kinetic_energy(particles);
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      particles.velocity[p] = gather<P>(state, state.basis.values, state.fields.velocity, p);
+    state.balance.dissipated += before - kinetic_energy(particles);
+  });
+}
+
+template <int P>
+void join_velocity(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines,
+                   const std::shared_ptr<LeastSquares<P>>& least_squares) {
+  const SchemeChoices& choices = builder.scene.scheme.choices;
+  join_acceleration<P>(builder, splines);
+  join_projection<P>(builder, splines, least_squares);
+  if (choices.transfer == Transfer::pic) join_pic<P>(builder);
+  if (choices.velocity_projection == VelocityProjection::least_squares && splines)
+    builder.update_momentum = [splines](State& state) {
+      splines->momentum(state.fields.velocity, state.fields.momentum);
+    };
+  else if (choices.velocity_projection == VelocityProjection::least_squares)
+    builder.update_momentum = sum_momentum<P>;
+}
+
+}  // namespace hompm::detail
