@@ -38,7 +38,7 @@ std::string demand(const ValueRule& rule);
 /// where the rule forbids it.
 std::optional<Content> accepted(const ValueRule& rule, const Content& content);
 
-/// "a, b, c"
+/// "a, b, c", cut short ("a, b and 7 more") where there are more than 15
 std::string listed(const std::vector<std::string>& words);
 
 }  // namespace hompm::detail

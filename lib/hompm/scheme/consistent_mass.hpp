@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <hompm/numerics/band_ldlt.hpp>
@@ -34,8 +35,10 @@ class ConsistentMass {
   /// Adds to M_ij and M_ji, j ≤ i; between `clear` and `factorise`.
   void add(std::size_t i, std::size_t j, double amount) { matrix_.lower(i, i - j) += amount; }
 
-  /// Functions begin … end − 1 touch material. Throws `InvalidRun` when the matrix is not positive definite.
-  void factorise(const State& state, std::size_t begin, std::size_t end) {
+  /// Functions begin … end − 1 touch material. `diagonal`, one entry per function or none, is added to the
+  /// diagonal: of Cᵀ M C as Cᵀ diagonal, so that row sums change by it there, too; it is overwritten. Throws
+  /// `InvalidRun` when the matrix is not positive definite.
+  void factorise(const State& state, std::size_t begin, std::size_t end, std::span<double> diagonal = {}) {
     touched_begin_ = begin_ = begin;
     touched_end_ = end_ = end;
     for (std::size_t k = 0; k <= P; ++k) {
@@ -52,6 +55,7 @@ class ConsistentMass {
     }
     if (tied_left_) tie(begin, +1);
     if (tied_right_) tie(end - 1, -1);
+    if (!diagonal.empty()) add_diagonal(diagonal);
     if (fixed_left_ || tied_left_) ++begin_;
     if (fixed_right_ || tied_right_) --end_;
     if (const std::size_t row = matrix_.factorise(begin_, end_); row != end_) throw_singular_mass(state, row);
@@ -110,7 +114,15 @@ class ConsistentMass {
       }
   }
 
-  void gather_tied(std::vector<double>& b, std::size_t j, int direction) const {
+  void add_diagonal(std::span<double> diagonal) {
+    if (tied_left_) gather_tied(diagonal, touched_begin_, +1);
+    if (tied_right_) gather_tied(diagonal, touched_end_ - 1, -1);
+    for (std::size_t i = touched_begin_; i < touched_end_; ++i) matrix_.lower(i, 0) += diagonal[i];
+    left_row_[0] += diagonal[touched_begin_];
+    right_row_[0] += diagonal[touched_end_ - 1];
+  }
+
+  void gather_tied(std::span<double> b, std::size_t j, int direction) const {
     for (std::size_t k = 1; k <= P + 1; ++k) b[next(j, k, direction)] += extension_[k - 1] * b[j];
   }
 

@@ -49,7 +49,7 @@ class SplineReconstruction final : public Reconstruction {
         mass_weight_(gauss_.capacity()),
         density_(state.particles.size()),
         cell_mass_(choices.conserve == Conserve::cell_mass ? gauss_.cells() : 0),
-        row_sums_(choices.conserve == Conserve::momentum ? state.fields.mass.size() : 0),
+        missing_(choices.conserve == Conserve::momentum ? state.fields.mass.size() : 0),
         mass_(state, choices.free_end == FreeEnd::extension),
         conserve_(choices.conserve) {}
 
@@ -92,10 +92,10 @@ class SplineReconstruction final : public Reconstruction {
     const auto begin = static_cast<std::size_t>(gauss_.first_cell());
     const auto end = static_cast<std::size_t>(gauss_.last_cell()) + P + 1;
     if (conserve_ == Conserve::momentum) {
-      row_sums(row_sums_);
-      for (std::size_t i = begin; i < end; ++i) mass_.add(i, i, state.fields.mass[i] - row_sums_[i]);
+      row_sums(missing_);
+      for (std::size_t i = 0; i < missing_.size(); ++i) missing_[i] = state.fields.mass[i] - missing_[i];
     }
-    mass_.factorise(state, begin, end);
+    mass_.factorise(state, begin, end, missing_);
   }
 
   void row_sums(std::vector<double>& mass) override {
@@ -202,7 +202,8 @@ class SplineReconstruction final : public Reconstruction {
   std::vector<typename Splines::Weights> weights_;
   std::vector<double> mass_weight_;
   std::vector<double> density_;
-  std::vector<double> cell_mass_, row_sums_;
+  std::vector<double> cell_mass_;
+  std::vector<double> missing_;  ///< to the row sums Σ m_p N_i
   ConsistentMass<P> mass_;
   Conserve conserve_;
 };

@@ -53,6 +53,7 @@ Simulation::Simulation(const Scene& scene, double time_step)
   plan_.run(Phase::end_stress, state_);
   plan_.run(Phase::internal_force, state_);
   plan_.run(Phase::velocity, state_);
+  state_.balance = {};
   const HistoryRow start = history(0.0);
   start_energy_ = total_energy(start);
   start_momentum_ = start.momentum;
