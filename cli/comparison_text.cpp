@@ -1,12 +1,11 @@
 #include "comparison_text.hpp"
 
-#include <algorithm>
-#include <array>
-#include <iomanip>
 #include <sstream>
 #include <vector>
 
 #include <hompm/number.hpp>
+
+#include "text_table.hpp"
 
 namespace hompm::cli {
 namespace {
@@ -18,9 +17,9 @@ std::string place(const Difference& d) {
 
 std::string distance(std::uint64_t ulps) { return std::to_string(ulps) + (ulps == 1 ? " ulp" : " ulps"); }
 
-void print_table(std::ostream& out, const std::vector<FieldComparison>& fields) {
-  using Row = std::array<std::string, 9>;
-  std::vector<Row> rows{
+/// The fields that differ, or "" when none does.
+std::string table(const std::vector<FieldComparison>& fields) {
+  std::vector<std::vector<std::string>> rows{
       {"file", "field", "values", "differing", "beyond", "worst |A-B|", "ulps", "time", "particle"}};
   for (const auto& f : fields) {
     if (f.differing == 0) continue;
@@ -28,18 +27,7 @@ void print_table(std::ostream& out, const std::vector<FieldComparison>& fields) 
                     std::to_string(f.beyond), to_text(f.largest_absolute), std::to_string(f.worst.ulps),
                     to_text(f.worst.time), f.worst.particle < 0 ? "-" : std::to_string(f.worst.particle)});
   }
-  if (rows.size() == 1) return;
-  std::array<int, 9> width{};
-  for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i)
-      width[i] = std::max(width[i], static_cast<int>(row[i].size()));
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const bool is_name = i < 2;
-      out << (i == 0 ? "" : "  ") << (is_name ? std::left : std::right) << std::setw(width[i]) << row[i];
-    }
-    out << '\n';
-  }
+  return rows.size() > 1 ? text_table(rows, 2) : "";
 }
 
 }  // namespace
@@ -53,7 +41,7 @@ std::string comparison_text(const Comparison& comparison) {
         << distance(d.ulps) << '\n';
   }
   for (const auto& message : comparison.messages) out << message << '\n';
-  print_table(out, comparison.fields);
+  out << table(comparison.fields);
   for (const auto& note : comparison.notes) out << "note: " << note << '\n';
   return out.str();
 }

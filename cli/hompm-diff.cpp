@@ -1,20 +1,20 @@
-// hompm-diff: exact comparison of two run folders.
+// hompm-diff: exact comparison of two run folders, and comparison of another code's results with one.
 //
 // Sample runs:
 //   hompm-diff run golden/bar-large
 //   hompm-diff --ulps all=4 run golden/bar-large
 //   hompm-diff --relative stress=1e-9 --absolute displacement=1e-12 run golden/bar-large
 //   hompm-diff --json run golden/bar-large
+//   hompm-diff --relative all=1e-2 theirs.csv golden/bar-large
 //
 // Description:
 //   Compares particles.csv, stress.csv and history.csv of folder A with those of folder B, bit for bit, and
 //   scene.toml as text. Tolerances have to be asked for, field by field or for `all` of them. Says where the
 //   two differ first and where each field differs most. The exit code tells the verdict: 0 identical or
-//   equivalent, 3 different.
+//   equivalent, 3 different. Where A is a CSV file, see foreign.hpp.
 
-#include <algorithm>
+#include <filesystem>
 #include <iostream>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,8 +23,10 @@
 
 #include <hompm/verify/compare.hpp>
 
+#include "bounds.hpp"
 #include "common.hpp"
 #include "comparison_text.hpp"
+#include "foreign.hpp"
 
 namespace {
 
@@ -50,58 +52,20 @@ po::options_description options() {
 std::string usage_text() {
   std::ostringstream text;
   text << "usage: hompm-diff [options] A B\n\n"
-          "Compares the results in the folders A and B (the golden one) bit for bit.\n\n"
-       << options()
+          "Compares the results in the folder A with those in the folder B (the golden one) bit for bit;\n"
+          "or the results of another code in the CSV file A with those in B and with the exact solution:\n\n"
+          "  hompm-diff --relative all=1e-2 --picture mine.svg mine.csv golden/bar-small-bspline\n\n"
+       << options() << '\n'
+       << hompm::cli::foreign_options()
        << "\n"
           "FIELD is a column of particles.csv, stress.csv or history.csv, or `all`, which goes for\n"
           "every field that is not named in another bound of the same kind. A value passes when it\n"
-          "meets any of its bounds. Without bounds a single bit makes the folders different.\n\n"
-          "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read.\n";
+          "meets any of its bounds. Without bounds a single bit makes the two different.\n\n"
+          "A CSV file needs the columns X, time and one of x, displacement, velocity, volume, density,\n"
+          "stress, stretch, in any order; others are let pass. Particles are matched by X. Largest\n"
+          "values are then those of all times, and only fields with a bound are judged, if any has one.\n\n"
+          "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read or write.\n";
   return text.str();
-}
-
-/// FIELD=BOUND, taken apart.
-struct Bound {
-  std::string where;  ///< the option as it was typed, for messages
-  std::string field;
-  std::string value;
-};
-
-Bound read_bound(const std::string& option, const std::string& word) {
-  const std::string where = "--" + option + " " + word;
-  const auto& fields = hompm::compared_fields();
-  const auto equals = word.find('=');
-  if (equals == word.npos) throw hompm::cli::UsageError(where + ": expected FIELD=BOUND, such as stress=3");
-  const std::string field = word.substr(0, equals);
-  if (field != "all" && std::find(fields.begin(), fields.end(), field) == fields.end()) {
-    throw hompm::cli::UsageError(where + ": no field is called " + field +
-                                 hompm::cli::suggestion(field, fields));
-  }
-  return {where, field, word.substr(equals + 1)};
-}
-
-/// Reads all FIELD=BOUND of one option into `member` of the tolerances.
-template <class Number, class Parse>
-void add_tolerances(const po::variables_map& given, const std::string& option,
-                    Number hompm::Tolerance::*member, Parse parse,
-                    std::map<std::string, hompm::Tolerance>& tolerances) {
-  if (given.count(option) == 0) return;
-  std::map<std::string, Number> named;
-  for (const auto& word : given[option].as<Words>()) {
-    const auto bound = read_bound(option, word);
-    named[bound.field] = parse(bound.value, bound.where);
-  }
-  for (const auto& field : hompm::compared_fields()) {
-    auto found = named.find(field);
-    if (found == named.end()) found = named.find("all");
-    if (found != named.end()) tolerances[field].*member = found->second;
-  }
-}
-
-double parse_bound(const std::string& text, const std::string& where) {
-  const double bound = hompm::cli::parse_number(text, where);
-  if (bound < 0.0) throw hompm::cli::UsageError(where + ": a bound cannot be negative");
-  return bound;
 }
 
 nlohmann::ordered_json json(const hompm::Difference& d) {
@@ -139,7 +103,8 @@ int compare(int argc, char** argv) {
     std::cerr << usage_text();
     return hompm::cli::usage;
   }
-  const auto [given, folders] = hompm::cli::read_command_line(argc, argv, options());
+  const auto [given, folders] =
+      hompm::cli::read_command_line(argc, argv, options().add(hompm::cli::foreign_options()));
   if (given.count("help") > 0) {
     std::cout << usage_text();
     return hompm::cli::success;
@@ -154,10 +119,12 @@ int compare(int argc, char** argv) {
   if (given.count("quiet") > 0 && given.count("json") > 0) {
     throw hompm::cli::UsageError("--quiet and --json contradict each other");
   }
-  std::map<std::string, hompm::Tolerance> tolerances;
-  add_tolerances(given, "absolute", &hompm::Tolerance::absolute, parse_bound, tolerances);
-  add_tolerances(given, "relative", &hompm::Tolerance::relative, parse_bound, tolerances);
-  add_tolerances(given, "ulps", &hompm::Tolerance::ulps, hompm::cli::parse_count, tolerances);
+  std::error_code unreadable;  // then it is not a file, and the comparison says why
+  if (std::filesystem::is_regular_file(folders[0], unreadable)) {
+    return hompm::cli::compare_csv(given, folders[0], folders[1]);
+  }
+  hompm::cli::refuse_foreign_options(given);
+  const auto tolerances = hompm::cli::read_tolerances(given, hompm::compared_fields());
 
   // 2. Compare.
   auto comparison = hompm::compare_folders(folders[0], folders[1], tolerances);

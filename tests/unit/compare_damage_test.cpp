@@ -100,7 +100,7 @@ TEST_CASE("each damage has its own message and makes the folders different", "[c
          lines[0].replace(lines[0].rfind(',') + 1, 1, "x");
        }},
       {"no particle numbers", " line 1: the column `particle` is missing", replace(0, "particle", "number")},
-      {"semicolons", " line 1: the column `time` is missing",
+      {"semicolons", " line 1: the columns are separated by semicolons: commas between columns and points",
        [](Lines& lines) {
          for (auto& line : lines) std::replace(line.begin(), line.end(), ',', ';');
        }},

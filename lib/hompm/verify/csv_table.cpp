@@ -1,24 +1,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include <hompm/verify/csv_table.hpp>
+#include <hompm/verify/csv_text.hpp>
 #include <hompm/verify/excerpt.hpp>
 
 namespace hompm::detail {
-namespace {
-
-constexpr double not_a_value = std::numeric_limits<double>::quiet_NaN();
-
-void split(std::string_view text, std::vector<std::size_t>& ends) {
-  ends.clear();
-  for (auto comma = text.find(','); comma != text.npos; comma = text.find(',', comma + 1))
-    ends.push_back(comma);
-  ends.push_back(text.size());
-}
-
-}  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& path, std::span<const std::string> fields,
                    bool with_particles, MessageLog& faults, MessageLog& notes)
@@ -41,7 +29,9 @@ void CsvTable::read_header(std::span<const std::string> fields, bool with_partic
   }
   CsvRow row;
   row.text = reader_.line();
-  split(row.text, row.ends);
+  split_at_commas(row.text, row.ends);
+  if (const std::string other = other_separator(row.text); !other.empty())
+    fault("other separators", 1, other);
   for (std::size_t i = 0; i < row.ends.size(); ++i) header_.emplace_back(row.field(i));
 
   std::vector<std::string> expected{"time"};
@@ -81,7 +71,7 @@ bool CsvTable::next(CsvRow& row) {
   while (reader_.next()) {
     row.line = reader_.number();
     row.text.assign(reader_.line());
-    split(row.text, row.ends);
+    split_at_commas(row.text, row.ends);
     if (!reader_.has_end()) fault("cut lines", row.line, "the file is cut off: the last line has no end");
     if (row.ends.size() != header_.size()) {
       const bool more = row.ends.size() > header_.size();
@@ -122,18 +112,11 @@ double CsvTable::value(const CsvRow& row, std::size_t field) {
 }
 
 double CsvTable::number(std::string_view text, const std::string& column, std::int64_t line) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(value)) return value;
-  const std::string what = excerpt(text) + " in column `" + column + "` ";
-  if (end != text.data() + text.size() || error == std::errc::invalid_argument) {
-    fault("values that are not numbers", line, what + "is not a number");
-  } else if (error == std::errc::result_out_of_range) {
-    fault("values out of range", line, what + "is beyond the range of a double");
-  } else {
-    fault("values that are not finite", line, what + "is not finite");
-  }
-  return not_a_value;
+  std::string kind;
+  std::string what;
+  const double value = finite_number(text, kind, what);
+  if (std::isnan(value)) fault(kind, line, excerpt(text) + " in column `" + column + "` " + what);
+  return value;
 }
 
 }  // namespace hompm::detail

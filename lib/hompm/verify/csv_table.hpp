@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <hompm/verify/csv_text.hpp>
 #include <hompm/verify/line_reader.hpp>
 #include <hompm/verify/message_log.hpp>
 #include <hompm/verify/ordered_bits.hpp>
@@ -36,10 +37,7 @@ struct CsvRow {
   std::string text;
   std::vector<std::size_t> ends;  ///< of the fields in `text`
 
-  [[nodiscard]] std::string_view field(std::size_t column) const {
-    const std::size_t begin = column == 0 ? 0 : ends[column - 1] + 1;
-    return std::string_view(text).substr(begin, ends[column] - begin);
-  }
+  [[nodiscard]] std::string_view field(std::size_t column) const { return field_of(text, ends, column); }
 };
 
 class CsvTable {

@@ -1,9 +1,23 @@
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
-#include <hompm/reference/reference.hpp>
 #include <hompm/verify/judge.hpp>
 
 namespace hompm {
+
+std::optional<ReferenceFields> detail::sound_fields(const Reference& reference, double time,
+                                                    std::span<const double> X, std::string& reason) {
+  try {
+    ReferenceFields fields = reference.at(time, X);
+    // Past a shock the reference no longer converges, and says so by its own error.
+    const double own = reference.estimated_error();
+    if (own <= 1e-3) return fields;
+    reason = "the reference solution (" + reference.description + ") is only good to " + to_text(own) +
+             " here: the motion has steepened to a shock";
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  return std::nullopt;
+}
 
 std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason) {
   const std::optional<Reference> reference = make_reference(scene);
@@ -15,23 +29,14 @@ std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, st
     reason = "the body had not come to rest by the end time; the reference is the state of rest";
     return std::nullopt;
   }
-  try {
-    const ReferenceFields exact = reference->at(result.final.time, result.final.reference_position);
-    // Past a shock the reference no longer converges, and says so by its own error.
-    if (const double own = reference->estimated_error(); own > 1e-3) {
-      reason = "the reference solution (" + reference->description + ") is only good to " + to_text(own) +
-               " here: the motion has steepened to a shock";
-      return std::nullopt;
-    }
-    return ErrorReport{.reference = reference->description,
-                       .reference_error = reference->estimated_error(),
-                       .displacement = error_norms(result.final.displacement, exact.displacement),
-                       .velocity = error_norms(result.final.velocity, exact.velocity),
-                       .stress = error_norms(result.final.stress, exact.stress)};
-  } catch (const Error& error) {
-    reason = error.what();
-    return std::nullopt;
-  }
+  const auto exact =
+      detail::sound_fields(*reference, result.final.time, result.final.reference_position, reason);
+  if (!exact) return std::nullopt;
+  return ErrorReport{.reference = reference->description,
+                     .reference_error = reference->estimated_error(),
+                     .displacement = error_norms(result.final.displacement, exact->displacement),
+                     .velocity = error_norms(result.final.velocity, exact->velocity),
+                     .stress = error_norms(result.final.stress, exact->stress)};
 }
 
 }  // namespace hompm

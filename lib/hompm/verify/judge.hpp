@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
+#include <hompm/reference/reference.hpp>
 #include <hompm/scene/scene.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/verify/error_norms.hpp>
@@ -22,4 +24,12 @@ struct ErrorReport {
 /// is a reason, too.
 std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason);
 
+namespace detail {
+
+/// The reference fields at `time` (s) and `X` (m, ascending), where the reference is good to 1e-3 by its own
+/// account; nothing otherwise, and `reason` says why.
+std::optional<ReferenceFields> sound_fields(const Reference& reference, double time,
+                                            std::span<const double> X, std::string& reason);
+
+}  // namespace detail
 }  // namespace hompm

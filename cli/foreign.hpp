@@ -1,0 +1,21 @@
+// hompm-diff with a CSV file of another code in the place of the first folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+namespace hompm::cli {
+
+/// The options that only go with a CSV file.
+boost::program_options::options_description foreign_options();
+
+/// Throws `UsageError` when an option is given that only goes with a CSV file.
+void refuse_foreign_options(const boost::program_options::variables_map& given);
+
+/// Compares, prints, draws; the exit code. Throws `UsageError`, `FileError`, `SceneError`.
+int compare_csv(const boost::program_options::variables_map& given, const std::string& csv,
+                const std::string& folder);
+
+}  // namespace hompm::cli
