@@ -51,7 +51,8 @@ po::options_description foreign_options() {
 }
 
 void refuse_foreign_options(const po::variables_map& given) {
-  for (const auto& option : foreign_options().options()) {
+  const auto all = foreign_options();
+  for (const auto& option : all.options()) {
     if (given.count(option->long_name()) > 0) {
       throw UsageError("--" + option->long_name() +
                        " goes with a CSV file in the place of A, which is a folder");

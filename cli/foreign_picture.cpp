@@ -125,25 +125,25 @@ std::string script_of(const Panels& panels, bool svg) {
                        "set border 3 linecolor '#404040'\nset tics nomirror\nset grid linecolor "
                        "'#E0E0E0'\nset offsets 0,0,graph 0.3,0\n" +
                        "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) + "\n";
-  const auto panel = [&](const std::string& field, const std::string& title, const std::string& plot) {
-    const bool key = field == panels.fields.front();
-    script +=
-        "set title '" + title + "'\n" + (key ? "set key top right opaque samplen 1\n" : "unset key\n") + plot;
+  const auto panel = [&](const std::string& field, const std::string& title, const std::string& key,
+                         const std::string& plot) {
+    const bool first = field == panels.fields.front();
+    script += "set title '" + title + "'\n";
+    script += (first ? "set key " + key + " right opaque samplen 1\n" : "unset key\n") + plot;
   };
+  const auto at = [](double time) { return ", t = " + to_text(time) + " s"; };
   for (const double time : panels.times) {
     for (const auto& field : panels.fields) {
-      const auto found = panels.curves.find({field, time});
-      panel(field, field + ", " + units.at(field) + ", t = " + to_text(time) + " s",
-            values_plot(*found->second));
+      const auto& curves = *panels.curves.at({field, time});
+      panel(field, field + ", " + units.at(field) + at(time), "top", values_plot(curves));
     }
   }
   script += "set logscale y\nset format y '10^{%T}'\nset xlabel 'X, m'\n";
   for (const auto& field : panels.fields) {
-    const auto& curves = *panels.curves.at({field, panels.times.back()});
+    const double time = panels.times.back();
     const double scale = panels.scale.at(field);
-    panel(field,
-          "errors over " + rounded(scale) + " " + units.at(field) + ", t = " + to_text(curves.time) + " s",
-          errors_plot(curves, scale > 0.0 ? scale : 1.0));
+    panel(field, "errors over " + rounded(scale) + " " + units.at(field) + at(time), "bottom",
+          errors_plot(*panels.curves.at({field, time}), scale > 0.0 ? scale : 1.0));
   }
   return script + "unset multiplot\n";
 }

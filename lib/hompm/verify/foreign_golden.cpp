@@ -31,6 +31,9 @@ void ParticleFields::derive_displacement() {
 }
 
 ParticleFields read_golden(const std::filesystem::path& folder, MessageLog& faults, MessageLog& notes) {
+  if (std::error_code error; !std::filesystem::is_directory(folder, error)) {
+    throw FileError("cannot compare with " + folder.string() + ": it is not a folder");
+  }
   ParticleFields golden;
   bool any = false;
   for (const char* name : {"particles.csv", "stress.csv"}) {
