@@ -95,6 +95,14 @@ set multiplot layout 1,4 title "Settled column, 32 cells of 4 particles; dots: p
     return script + "unset multiplot\n"
 
 
+def comparing(tools):
+    """What hompm-diff --picture draws, here of golden data of two schemes."""
+    golden = make_tables.ROOT / "golden"
+    subprocess.run([tools.run_tool.parent / "hompm-diff", "--quiet", "--time", "1.25", "--picture", "comparing.svg",
+                    golden / "bar-small-classical/stress.csv", golden / "bar-small-bspline"], check=False, cwd=tools.work)
+    return ""
+
+
 def version(text):
     found = re.search(r"GNUPLOT ([\d.]+) patchlevel (\w+)", text)
     return found.group(0) if found else ""
@@ -109,7 +117,7 @@ def main():
     stale = []
     with tempfile.TemporaryDirectory() as work:
         tools = make_tables.Tools(arguments.tool.resolve(), work)
-        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled)):
+        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("comparing", comparing)):
             subprocess.run(["gnuplot"], input=draw(tools), text=True, check=True, cwd=work)
             new = (pathlib.Path(work) / f"{name}.svg").read_text()
             path = PICTURES / f"{name}.svg"
