@@ -11,12 +11,13 @@ std::vector<Bound> read_bounds(const boost::program_options::variables_map& give
   std::vector<Bound> bounds;
   if (given.count(option) == 0) return bounds;
   for (const auto& word : given[option].as<std::vector<std::string>>()) {
-    const std::string where = "--" + option + " " + word;
+    const std::string where = std::string("--").append(option).append(" ").append(word);
     const auto equals = word.find('=');
     if (equals == word.npos) throw UsageError(where + ": expected FIELD=BOUND, such as stress=3");
     const std::string field = word.substr(0, equals);
     if (field != "all" && std::find(fields.begin(), fields.end(), field) == fields.end()) {
-      throw UsageError(where + ": no field is called " + field + suggestion(field, fields));
+      throw UsageError(
+          std::string(where).append(": no field is called ").append(field).append(suggestion(field, fields)));
     }
     bounds.push_back({where, field, word.substr(equals + 1)});
   }

@@ -16,7 +16,7 @@ namespace {
 /// A file without a name, gone when it is closed. Pipes could fill up and hang; a file cannot.
 class NamelessFile {
  public:
-  NamelessFile() : file_(std::tmpfile()) {
+  NamelessFile() : file_(std::tmpfile(), &std::fclose) {
     if (!file_) throw FileError("create", "a temporary file", errno);
   }
   [[nodiscard]] int descriptor() const { return ::fileno(file_.get()); }
@@ -36,10 +36,7 @@ class NamelessFile {
   }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Close> file_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
 std::string first_lines(const std::string& text) {

@@ -83,8 +83,7 @@ std::vector<std::size_t> wanted_blocks(const ParticleFields& golden, const std::
     wanted.push_back(static_cast<std::size_t>(found - golden.blocks.begin()));
   }
   std::ranges::sort(wanted);
-  const auto repeated = std::ranges::unique(wanted);
-  wanted.erase(repeated.begin(), repeated.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   return wanted;
 }
 
