@@ -72,6 +72,15 @@ std::uint64_t parse_count(const std::string& text, const std::string& where) {
   throw UsageError(where + ": `" + text + "` is not a whole number of at least 0");
 }
 
+std::int64_t parse_steps(const std::string& text, const std::string& option, std::int64_t least) {
+  std::int64_t number = 0;
+  if (read_whole(text, number) && number >= least) return number;
+  throw UsageError(option + " " + text + ": expected a number of steps, a whole number of at least " +
+                   std::to_string(least));
+}
+
+void warn(const std::string& message) { std::cerr << "hompm-run: warning: " << message << std::endl; }
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string near = nearest(word, candidates);
   return near.empty() ? "" : "; did you mean " + near + "?";

@@ -44,6 +44,13 @@ double parse_number(const std::string& text, const std::string& where);
 /// The whole of `text` as a number of at least 0, without a sign. Throws `UsageError` as above.
 std::uint64_t parse_count(const std::string& text, const std::string& where);
 
+/// The whole of `text` as a number of steps of at least `least`. Throws `UsageError`, which begins with
+/// `option` and `text`.
+std::int64_t parse_steps(const std::string& text, const std::string& option, std::int64_t least);
+
+/// One line on standard error that is not the end: "hompm-run: warning: <message>".
+void warn(const std::string& message);
+
 /// "; did you mean <nearest>?", or nothing when no candidate is near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 

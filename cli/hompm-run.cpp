@@ -24,6 +24,7 @@
 #include <hompm/number.hpp>
 #include <hompm/output/run_folder.hpp>
 #include <hompm/output/run_report.hpp>
+#include <hompm/recorder/checkpoint_writer.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/verify/compare.hpp>
@@ -32,25 +33,13 @@
 #include "comparison_text.hpp"
 #include "listing.hpp"
 #include "progress.hpp"
+#include "scene_choice.hpp"
 
 namespace {
 
 using hompm::cli::UsageError;
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
-
-/// Options that are short for `--set KEY=VALUE`.
-const std::vector<std::pair<std::string, std::string>> shortcuts{
-    {"scheme", "scheme.name"},
-    {"degree", "scheme.degree"},
-    {"cells", "scheme.cells"},
-    {"particles-per-cell", "scheme.particles_per_cell"},
-    {"time-step", "scheme.time_step"},
-    {"courant", "scheme.courant"},
-    {"step-fraction", "scheme.step_fraction"},
-    {"end-time", "end_time"},
-    {"snapshots", "output.snapshots"},
-};
 
 po::options_description make_options() {
   po::options_description options("options");
@@ -70,6 +59,8 @@ po::options_description make_options() {
                                       "compare with a golden folder; its scene is run when none is named")(
       "explain", "print the stages of a step and what called for each, and run nothing")(
       "json", "print run.json instead of the summary")("quiet", "print nothing but errors")(
+      "checkpoint", text("EVERY"), "write checkpoint.hompm into the output folder every EVERY steps")(
+      "resume", text("FILE"), "go on from a checkpoint, in its folder unless --output is given")(
       "list", "list cases, schemes, materials and effects")("version", "print the version")("help",
                                                                                             "print this");
   return options;
@@ -79,7 +70,8 @@ std::string usage_text(const po::options_description& options) {
   std::ostringstream text;
   text << "usage: hompm-run --case NAME [options]\n"
           "       hompm-run --scene FILE [options]\n"
-          "       hompm-run --check GOLDEN [options]\n\n"
+          "       hompm-run --check GOLDEN [options]\n"
+          "       hompm-run --resume CHECKPOINT [options]\n\n"
           "Runs a scene by the material point method and says how good the result is.\n\n"
        << options
        << "\nExit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became invalid,\n"
@@ -87,66 +79,9 @@ std::string usage_text(const po::options_description& options) {
   return text.str();
 }
 
-std::vector<hompm::Override> overrides_of(const po::variables_map& given) {
-  std::vector<hompm::Override> overrides;
-  for (const auto& [option, key] : shortcuts)
-    if (given.count(option)) {
-      const auto& value = given[option].as<std::string>();
-      overrides.push_back({key, value, std::string("--").append(option).append(" ").append(value)});
-    }
-  if (given.count("set"))
-    for (const auto& text : given["set"].as<std::vector<std::string>>()) {
-      const auto equals = text.find('=');
-      if (equals == std::string::npos || equals == 0)
-        throw UsageError("--set " + text + ": expected KEY=VALUE, as in --set scheme.cells=32");
-      overrides.push_back({text.substr(0, equals), text.substr(equals + 1), "--set " + text});
-    }
-  return overrides;
-}
-
-/// The scene that is asked for: a case, a file, or that of a golden folder.
-hompm::Scene scene_of(const po::variables_map& given) {
-  auto overrides = overrides_of(given);
-  const auto text = [&](const char* option) {
-    return given.count(option) ? given[option].as<std::string>() : std::string();
-  };
-  if (given.count("case") && given.count("scene")) throw UsageError("--case and --scene exclude each other");
-  if (given.count("variant") && !given.count("case")) throw UsageError("--variant goes with --case");
-  if (given.count("scene")) return hompm::load_scene(text("scene"), overrides);
-  if (given.count("case")) return hompm::load_builtin(text("case"), text("variant"), overrides);
-  if (given.count("check")) return hompm::load_scene(fs::path(text("check")) / "scene.toml", overrides);
-  throw UsageError(
-      "nothing to run: name a --case (bar, column), a --scene FILE, or a golden folder to --check");
-}
-
-/// "here `cells = 64`, there `cells = 32`", for the first line in which two texts differ.
-std::string first_different_line(const std::string& here, const std::string& there) {
-  std::istringstream a(here);
-  std::istringstream b(there);
-  std::string line_a;
-  std::string line_b;
-  do {
-    if (!std::getline(a, line_a)) line_a = "nothing more";
-    if (!std::getline(b, line_b)) line_b = "nothing more";
-  } while (line_a == line_b);
-  return "here `" + line_a + "`, there `" + line_b + "`";
-}
-
-/// How often to write is not part of what is simulated: it follows the golden scene unless the command line
-/// says otherwise.
-void demand_same_scene(hompm::Scene& scene, const po::variables_map& given) {
-  const std::string folder = given["check"].as<std::string>();
-  const hompm::Scene golden = hompm::load_scene(fs::path(folder) / "scene.toml", {});
-  if (!given.count("snapshots") && scene.origins.count("output.snapshots") == 0) scene.output = golden.output;
-  const std::string mine = hompm::scene_text(scene);
-  const std::string theirs = hompm::scene_text(golden);
-  if (mine == theirs) return;
-  throw UsageError("--check " + folder +
-                   ": a golden of another scene: " + first_different_line(mine, theirs));
-}
-
 fs::path output_folder(const po::variables_map& given, const hompm::Scene& scene) {
   if (given.count("output")) return given["output"].as<std::string>();
+  if (given.count("resume")) return hompm::checkpoint_folder(given["resume"].as<std::string>());
   std::string name = scene.case_name;
   if (!scene.variant.empty()) name += "-" + scene.variant;
   return fs::path("hompm-out") / (name + "-" + scene.scheme.name);
@@ -161,35 +96,61 @@ int check_against(const fs::path& golden, const fs::path& folder, bool quiet) {
   return same ? hompm::cli::success : hompm::cli::different;
 }
 
+/// How a run begins: anew, or where the checkpoint `from` was written.
+hompm::Checkpoint starting_point(const hompm::Scene& scene, const po::variables_map& given,
+                                 std::optional<hompm::Checkpoint> from) {
+  hompm::Checkpoint point = from ? std::move(*from) : hompm::first_checkpoint(scene);
+  point.scene = scene;
+  point.vtk = point.vtk && given.count("no-vtk") == 0;
+  if (given.count("checkpoint"))
+    point.every = hompm::cli::parse_steps(given["checkpoint"].as<std::string>(), "--checkpoint", 1);
+  return point;
+}
+
 /// Runs the scene into its folder. A run that becomes invalid leaves its last valid snapshot, marked as such.
-int run_scene(const hompm::Scene& scene, const po::variables_map& given) {
+int run_scene(const hompm::Scene& scene, const po::variables_map& given,
+              std::optional<hompm::Checkpoint> from) {
   const bool quiet = given.count("quiet") > 0;
+  const bool resumed = from.has_value();
   const hompm::TimeStepping stepping = hompm::time_stepping(scene);
+  const hompm::Checkpoint begin = starting_point(scene, given, std::move(from));
   if (given.count("explain")) {
     std::cout << hompm::cli::plan_text(scene, stepping);
     return hompm::cli::success;
   }
-  hompm::RunFolder folder(output_folder(given, scene), given.count("no-vtk") == 0);
+  hompm::RunFolder folder(output_folder(given, scene), begin.vtk);
 
   const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return begin.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  std::optional<hompm::CheckpointWriter> checkpoints;
+  if (begin.every > 0) checkpoints.emplace(folder, begin, hompm::cli::warn);
+  for (const auto& row : begin.history) folder.write(row);
+  for (const auto& snapshot : begin.snapshots) folder.write(snapshot);
+  hompm::Snapshot last_valid = begin.snapshots.empty() ? hompm::Snapshot{} : begin.snapshots.back();
+
+  hompm::RunObserver observer;
+  observer.snapshot = [&](const hompm::Snapshot& snapshot) {
+    folder.write(snapshot);
+    if (checkpoints) checkpoints->keep(snapshot);
+    last_valid = snapshot;
+  };
+  observer.history = [&](const hompm::HistoryRow& row) {
+    folder.write(row);
+    if (checkpoints) checkpoints->keep(row);
+  };
+  observer.checkpoint = [&](const hompm::RunPoint& point) { checkpoints->write(point, seconds()); };
+  observer.checkpoint_every = begin.every;
   std::optional<hompm::RunResult> result;
-  hompm::Snapshot last_valid;
   try {
     hompm::cli::ProgressBar bar(quiet);
-    result =
-        hompm::run(scene, stepping,
-                   {.snapshot =
-                        [&](const hompm::Snapshot& snapshot) {
-                          folder.write(snapshot);
-                          last_valid = snapshot;
-                        },
-                    .history = [&](const hompm::HistoryRow& row) { folder.write(row); },
-                    .progress = [&](std::int64_t step, std::int64_t steps) { bar.update(step, steps); }});
+    observer.progress = [&](std::int64_t step, std::int64_t steps) { bar.update(step, steps); };
+    result = hompm::run(scene, stepping, observer, resumed ? &begin.point : nullptr);
   } catch (const hompm::InvalidRun& invalid) {
     folder.keep_invalid(last_valid, invalid.what());
     throw;
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   std::string no_errors_because;
   const auto errors = hompm::judge(scene, *result, no_errors_because);
@@ -197,7 +158,7 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given) {
   const std::string json = hompm::run_json(report);
   folder.write("scene.toml", hompm::scene_text(scene));
   folder.write("run.json", json);
-  folder.write("timing.json", hompm::timing_json(*result, seconds));
+  folder.write("timing.json", hompm::timing_json(*result, seconds()));
   folder.publish();
 
   if (!quiet) {
@@ -231,9 +192,12 @@ int run_tool(int argc, char** argv) {
     std::cout << hompm::cli::catalogue_text();
     return hompm::cli::success;
   }
-  hompm::Scene scene = scene_of(given);
-  if (given.count("check")) demand_same_scene(scene, given);
-  return run_scene(scene, given);
+  std::optional<hompm::Checkpoint> from;
+  if (given.count("resume")) from = hompm::read_checkpoint(given["resume"].as<std::string>());
+  hompm::Scene scene = from && !hompm::cli::names_scene(given) ? from->scene : hompm::cli::scene_of(given);
+  if (given.count("check")) hompm::cli::demand_same_scene(scene, given);
+  if (from) hompm::cli::demand_resumed_scene(scene, from->scene, given);
+  return run_scene(scene, given, std::move(from));
 }
 
 }  // namespace

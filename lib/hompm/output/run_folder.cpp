@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
@@ -92,6 +93,7 @@ class RunFolder::Contents {
   detail::TextFile history = staging.create("history.csv");
   bool with_vtk;
   std::vector<double> vtk_times;
+  std::optional<detail::FolderLock> reserved;
   bool whole = true;  // no write failed half-way
 
   /// Does `work`; should it throw, the files are no longer a whole run.
@@ -141,6 +143,17 @@ void RunFolder::write(const std::string& name, const std::string& text) {
   });
 }
 
+void RunFolder::reserve_checkpoint() {
+  contents_->reserved.emplace(path());
+  if (contents_->reserved->taken())
+    throw FileError("cannot write checkpoints in " + path().string() +
+                    ": another run is writing its own there; choose another --output");
+}
+
+void RunFolder::write_checkpoint(std::string_view bytes) {
+  contents_->staging.replace(checkpoint_name, bytes);
+}
+
 void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
   check(last);
   contents_->whole = false;
@@ -155,6 +168,7 @@ void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
   remove_earlier_run(staging.path());
   staging.move_into_place("invalid/last_valid.csv");
   staging.move_into_place("invalid/reason.txt");
+  remove_file(staging.path() / checkpoint_name);
 }
 
 void RunFolder::publish() {
@@ -173,6 +187,7 @@ void RunFolder::publish() {
     const bool has_summary = names.erase("run.json") > 0;
     for (const auto& name : names) staging.move_into_place(name);
     if (has_summary) staging.move_into_place("run.json");
+    remove_file(staging.path() / checkpoint_name);  // last: until here a kill must find it
   });
   contents_->whole = false;  // published: nothing more to write
 }

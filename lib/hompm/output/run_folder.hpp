@@ -5,10 +5,14 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <hompm/simulation/records.hpp>
 
 namespace hompm {
+
+/// The file in a run folder from which a run that was stopped goes on (recorder/checkpoint.hpp).
+inline constexpr const char* checkpoint_name = "checkpoint.hompm";
 
 /// Writes particles.csv, stress.csv, history.csv, whole files by name and, where asked for,
 /// vtk/snapshot_*.vtu with run.pvd. A write past a file size limit is a `FileError` only where the process
@@ -33,6 +37,14 @@ class RunFolder {
   /// Writes a whole file, for scene.toml, run.json, timing.json; `name` has no folder in it. Throws
   /// `FileError`.
   void write(const std::string& name, const std::string& text);
+
+  /// From here on other runs that ask are refused. Throws `FileError` when another run has asked before and
+  /// is under way.
+  void reserve_checkpoint();
+  /// Puts a checkpoint into the folder at once, whole and on the disk, over an older one; `publish` and
+  /// `keep_invalid` remove it as the last thing they do. Throws `FileError`: the older one is then untouched,
+  /// and the run can go on.
+  void write_checkpoint(std::string_view bytes);
 
   /// Ends a run that stopped being valid: removes what an earlier run left, so that nothing there looks like
   /// the result of this one, and leaves invalid/last_valid.csv (columns of particles.csv and stress.csv) and

@@ -1,5 +1,6 @@
 #include <cerrno>
 #include <cstdio>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,19 +21,45 @@ bool create_folder(const fs::path& folder) {
   throw FileError("create the folder", folder, reason == EEXIST ? ENOTDIR : reason);
 }
 
-/// The staging folder of this process. A number is appended when another run of the same process id (in
-/// another container, or killed long ago) has one here.
-fs::path create_staging(const fs::path& folder) {
-  const fs::path base = folder / (".hompm-partial-" + std::to_string(::getpid()));
-  fs::path staging = base;
-  for (int copy = 1; !create_folder(staging); ++copy) {
-    staging = base;
-    staging += "-" + std::to_string(copy);
+/// Makes a renaming last. Best effort: without it an older name may be back after the power failed.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+constexpr const char* staging_prefix = ".hompm-partial-";
+
+/// Removes the staging folders of runs that were killed: those that no process has locked.
+void remove_left_over(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored))
+    if (entry->path().filename().string().starts_with(staging_prefix)) found.push_back(entry->path());
+  for (const auto& path : found) {
+    const FolderLock lock(path);
+    if (lock.held()) fs::remove_all(path, ignored);
   }
-  return staging;
 }
 
 }  // namespace
+
+Staging Staging::create(const fs::path& folder) {
+  // A number is appended when another run of the same process id, in another container, has one here.
+  const fs::path base = folder / (staging_prefix + std::to_string(::getpid()));
+  fs::path path = base;
+  for (int copy = 1;; ++copy) {
+    if (create_folder(path)) {
+      FolderLock lock(path);
+      // Another run may take it for left over, until it is locked.
+      std::error_code ignored;
+      if (lock.held() || (!lock.taken() && fs::exists(path, ignored))) return {path, std::move(lock)};
+    }
+    path = base;
+    path += "-" + std::to_string(copy);
+  }
+}
 
 CreatedFolders::CreatedFolders(const fs::path& folder) {
   if (folder.empty()) throw FileError("the name of the output folder is empty");
@@ -58,15 +85,17 @@ void CreatedFolders::remove_empty() {
 }
 
 StagingFolder::StagingFolder(fs::path folder)
-    : folder_(std::move(folder)), created_(folder_), staging_(create_staging(folder_)) {}
+    : folder_(std::move(folder)), created_(folder_), staging_(Staging::create(folder_)) {
+  remove_left_over(folder_);
+}
 
 StagingFolder::~StagingFolder() {
   std::error_code ignored;
-  fs::remove_all(staging_, ignored);
+  fs::remove_all(staging_.path, ignored);
 }
 
 TextFile StagingFolder::create(const std::string& name) {
-  const fs::path path = staging_ / name;
+  const fs::path path = staging_.path / name;
   create_folder(path.parent_path());
   names_.insert(name);
   return TextFile(path, folder_ / name);
@@ -75,8 +104,24 @@ TextFile StagingFolder::create(const std::string& name) {
 void StagingFolder::move_into_place(const std::string& name) {
   const fs::path target = folder_ / name;
   create_folder(target.parent_path());
-  if (std::rename((staging_ / name).c_str(), target.c_str()) != 0) throw FileError("write", target, errno);
+  if (std::rename((staging_.path / name).c_str(), target.c_str()) != 0)
+    throw FileError("write", target, errno);
   names_.erase(name);
+}
+
+void StagingFolder::replace(const std::string& name, std::string_view content) {
+  try {
+    auto file = create(name);
+    file << content;
+    file.close_on_disk();
+    move_into_place(name);
+    sync_folder(folder_);
+  } catch (const FileError&) {
+    std::error_code ignored;
+    fs::remove(staging_.path / name, ignored);  // gives the disk its space back
+    names_.erase(name);
+    throw;
+  }
 }
 
 }  // namespace hompm::detail

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <hompm/output/folder_lock.hpp>
 #include <hompm/output/text_file.hpp>
 
 namespace hompm::detail {
@@ -24,10 +25,17 @@ class CreatedFolders {
   std::vector<std::filesystem::path> created_;
 };
 
+/// The hidden folder of one process, locked: a run that finds one without a lock knows that it was left over.
+struct Staging {
+  static Staging create(const std::filesystem::path& folder);
+  std::filesystem::path path;
+  FolderLock lock;
+};
+
 /// A folder and, inside it, the hidden one in which files wait to be moved; the latter goes with the object.
 class StagingFolder {
  public:
-  /// Throws `FileError` when one of the two folders cannot be created.
+  /// Removes what killed runs left over. Throws `FileError` when one of the two folders cannot be created.
   explicit StagingFolder(std::filesystem::path folder);
   ~StagingFolder();
   StagingFolder(const StagingFolder&) = delete;
@@ -38,6 +46,9 @@ class StagingFolder {
   TextFile create(const std::string& name);
   /// Moves the (closed) file `name` to its place, over an older one. Throws `FileError`.
   void move_into_place(const std::string& name);
+  /// Puts a file with this content in its place, all of it on the disk before it replaces an older one.
+  /// Throws `FileError`, the older one then untouched.
+  void replace(const std::string& name, std::string_view content);
 
   /// Names of the files still waiting.
   [[nodiscard]] const std::set<std::string>& names() const { return names_; }
@@ -46,7 +57,7 @@ class StagingFolder {
  private:
   std::filesystem::path folder_;
   CreatedFolders created_;
-  std::filesystem::path staging_;
+  Staging staging_;
   std::set<std::string> names_;
 };
 

@@ -57,4 +57,11 @@ void TextFile::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) throw FileError("write", shown_, errno);
 }
 
+void TextFile::close_on_disk() {
+  flush();
+  // EINVAL: a file system that cannot promise it
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) throw FileError("write", shown_, errno);
+  close();
+}
+
 }  // namespace hompm::detail

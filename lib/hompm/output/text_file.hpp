@@ -28,6 +28,8 @@ class TextFile {
 
   /// Writes the rest and closes; a second call does nothing. Throws `FileError`.
   void close();
+  /// The same, and the content has reached the disk when it returns.
+  void close_on_disk();
 
  private:
   void flush();

@@ -22,8 +22,10 @@ bool is_due(std::int64_t step, std::int64_t steps, std::int64_t count) {
 /// what the grid's has is taken back where relaxation balances it.
 class RestWatch {
  public:
-  RestWatch(const Scene& scene, double time_step, const Particles& particles)
-      : longest_way_(scene.rest->speed * time_step), before_(particles.displacement) {
+  RestWatch(const Scene& scene, double time_step, const Particles& particles, std::int64_t quiet_steps)
+      : longest_way_(scene.rest->speed * time_step),
+        before_(particles.displacement),
+        quiet_steps_(quiet_steps) {
     const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
     steps_needed_ = static_cast<std::int64_t>(std::ceil(2.0 * scene.body.length / wave_speed / time_step));
   }
@@ -36,19 +38,20 @@ class RestWatch {
     quiet_steps_ = quiet ? quiet_steps_ + 1 : 0;
     return quiet_steps_ >= steps_needed_;
   }
+  [[nodiscard]] std::int64_t quiet_steps() const { return quiet_steps_; }
 
  private:
   double longest_way_;  ///< m, in one step
   std::vector<double> before_;
   std::int64_t steps_needed_;
-  std::int64_t quiet_steps_ = 0;
+  std::int64_t quiet_steps_;
 };
 
 /// Energy beyond what the start and the loads supplied is made by an instability.
 class EnergyGuard {
  public:
-  EnergyGuard(const HistoryRow& start, const TimeStepping& stepping)
-      : start_(start.kinetic + start.stored), stepping_(stepping) {}
+  EnergyGuard(const HistoryRow& start, const TimeStepping& stepping, double supplied)
+      : start_(start.kinetic + start.stored), supplied_(supplied), stepping_(stepping) {}
 
   void check(const HistoryRow& row, std::int64_t step) {
     supplied_ = std::max({supplied_, std::abs(row.gravity), std::abs(row.external_work)});
@@ -63,14 +66,15 @@ class EnergyGuard {
               " of the critical one";
     throw InvalidRun(step, row.time, -1, reason);
   }
+  [[nodiscard]] double supplied() const { return supplied_; }
 
  private:
   double start_;
-  double supplied_ = 0.0;
+  double supplied_;
   TimeStepping stepping_;
 };
 
-void accumulate(RunResult& result, const HistoryRow& row) {
+void accumulate(RunExtremes& result, const HistoryRow& row) {
   const auto raise = [](double& largest, double value) { largest = std::max(largest, std::abs(value)); };
   raise(result.largest_residual, row.residual);
   raise(result.largest_momentum_residual, row.momentum_residual);
@@ -81,20 +85,29 @@ void accumulate(RunResult& result, const HistoryRow& row) {
 
 }  // namespace
 
-RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserver& observer) {
+RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserver& observer,
+              const RunPoint* from) {
   numerics::check_floating_point();
   Simulation simulation(scene, stepping.time_step);
   RunResult result;
   result.start = result.end = simulation.history(0.0);
-  accumulate(result, result.start);
-  if (observer.history) observer.history(result.start);
-  if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
+  if (from != nullptr) {
+    simulation.state() = from->state;
+    static_cast<RunExtremes&>(result) = from->extremes;
+  } else {
+    accumulate(result, result.start);
+    if (observer.history) observer.history(result.start);
+    if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
+  }
 
-  EnergyGuard guard(result.start, stepping);
+  EnergyGuard guard(result.start, stepping, from != nullptr ? from->supplied : 0.0);
   std::optional<RestWatch> rest;
-  if (scene.rest) rest.emplace(scene, stepping.time_step, simulation.state().particles);
+  if (scene.rest)
+    rest.emplace(scene, stepping.time_step, simulation.state().particles,
+                 from != nullptr ? from->quiet_steps : 0);
+  if (observer.start) observer.start(simulation);
 
-  for (std::int64_t step = 1; step <= stepping.steps && !result.at_rest; ++step) {
+  for (std::int64_t step = simulation.state().step + 1; step <= stepping.steps && !result.at_rest; ++step) {
     simulation.step();
     result.steps = step;
     result.at_rest = rest && rest->at_rest(simulation.state().particles);
@@ -112,6 +125,8 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
         observer.snapshot(last ? result.final : simulation.snapshot(time));
     }
     if (observer.progress) observer.progress(step, stepping.steps);
+    if (observer.checkpoint_every > 0 && step % observer.checkpoint_every == 0 && !last)
+      observer.checkpoint({simulation.state(), result, guard.supplied(), rest ? rest->quiet_steps() : 0});
   }
   return result;
 }

@@ -10,29 +10,51 @@
 
 namespace hompm {
 
-/// What a run tells while it is under way; each may be empty.
-struct RunObserver {
-  std::function<void(const Snapshot&)> snapshot;
-  std::function<void(const HistoryRow&)> history;
-  std::function<void(std::int64_t step, std::int64_t steps)> progress;  ///< after every step
-};
-
-struct RunResult {
-  std::int64_t steps = 0;  ///< that were done
-  bool at_rest = false;    ///< the run ended because the body came to rest
-  HistoryRow start, end;
+/// The largest values so far.
+struct RunExtremes {
   double largest_residual = 0.0;            ///< of the energy balance, over the rows of the history, J/m²
   double largest_momentum_residual = 0.0;   ///< kg/(m s)
   double largest_internal_force_sum = 0.0;  ///< of |Σ f_int| / Σ |f_int|
   double largest_energy = 0.0;              ///< of kinetic + stored + the magnitude of gravity's, J/m²
   double largest_momentum = 0.0;            ///< of |Σ m v| + |impulse|, kg/(m s)
+};
+
+struct RunResult : RunExtremes {
+  std::int64_t steps = 0;  ///< that were done
+  bool at_rest = false;    ///< the run ended because the body came to rest
+  HistoryRow start, end;
   Snapshot final;
+};
+
+/// Where a run stands after a step: with the scene all that the rest of the run depends on.
+struct RunPoint {
+  State state;
+  RunExtremes extremes = {};
+  double supplied = 0.0;         ///< largest energy that the loads supplied, J/m²
+  std::int64_t quiet_steps = 0;  ///< since a particle last moved too fast for `Scene::rest`
+};
+
+/// What a run tells while it is under way; each may be empty.
+struct RunObserver {
+  std::function<void(const Snapshot&)> snapshot;
+  std::function<void(const HistoryRow&)> history;
+  std::function<void(std::int64_t step, std::int64_t steps)> progress;  ///< after every step
+  /// Before the first step: may add stages to the plan.
+  std::function<void(Simulation&)> start = {};
+  /// After every `checkpoint_every` steps (none when that is 0), the last step left out. All that was
+  /// reported before belongs to the point.
+  std::function<void(const RunPoint&)> checkpoint = {};
+  std::int64_t checkpoint_every = 0;
 };
 
 /// Runs a scene with the given stepping. The start is reported first, then `scene.output.snapshots` snapshots
 /// and `scene.output.history` rows evenly over the steps. Throws `SceneError` when scene and scheme do not go
 /// together, and `InvalidRun` when the run becomes invalid: what was reported before is valid. Throws `Error`
 /// on a machine or build whose arithmetic is not IEEE 754 (numerics/floating_point.hpp).
-RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserver& observer = {});
+///
+/// With `from`, a point of an earlier run of the same scene, the run goes on from there: what is reported and
+/// returned is the rest of that run, bit for bit.
+RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserver& observer = {},
+              const RunPoint* from = nullptr);
 
 }  // namespace hompm

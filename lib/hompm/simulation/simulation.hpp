@@ -22,8 +22,10 @@ class Simulation {
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
-  /// For tests and the linear stability analysis, which set fields of their own before a step.
+  /// For tests, restarts and the linear stability analysis, which set fields of their own before a step.
   [[nodiscard]] State& state() { return state_; }
+  /// For recorders, which add stages of their own before a step.
+  [[nodiscard]] Plan& plan() { return plan_; }
 
   /// Particle fields and balances now, with time stamp `time` (s).
   [[nodiscard]] Snapshot snapshot(double time) const;

@@ -1,0 +1,105 @@
+#include "scene_choice.hpp"
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <hompm/scene_file/reader.hpp>
+
+#include "common.hpp"
+
+namespace hompm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+/// Options that are short for `--set KEY=VALUE`.
+const std::vector<std::pair<std::string, std::string>> shortcuts{
+    {"scheme", "scheme.name"},
+    {"degree", "scheme.degree"},
+    {"cells", "scheme.cells"},
+    {"particles-per-cell", "scheme.particles_per_cell"},
+    {"time-step", "scheme.time_step"},
+    {"courant", "scheme.courant"},
+    {"step-fraction", "scheme.step_fraction"},
+    {"end-time", "end_time"},
+    {"snapshots", "output.snapshots"},
+};
+
+std::vector<Override> overrides_of(const po::variables_map& given) {
+  std::vector<Override> overrides;
+  for (const auto& [option, key] : shortcuts)
+    if (given.count(option)) {
+      const auto& value = given[option].as<std::string>();
+      overrides.push_back({key, value, std::string("--").append(option).append(" ").append(value)});
+    }
+  if (given.count("set"))
+    for (const auto& text : given["set"].as<std::vector<std::string>>()) {
+      const auto equals = text.find('=');
+      if (equals == std::string::npos || equals == 0)
+        throw UsageError("--set " + text + ": expected KEY=VALUE, as in --set scheme.cells=32");
+      overrides.push_back({text.substr(0, equals), text.substr(equals + 1), "--set " + text});
+    }
+  return overrides;
+}
+
+/// "here `cells = 64`, there `cells = 32`", for the first line in which two texts differ.
+std::string first_different_line(const std::string& here, const std::string& there) {
+  std::istringstream a(here);
+  std::istringstream b(there);
+  std::string line_a;
+  std::string line_b;
+  do {
+    if (!std::getline(a, line_a)) line_a = "nothing more";
+    if (!std::getline(b, line_b)) line_b = "nothing more";
+  } while (line_a == line_b);
+  return "here `" + line_a + "`, there `" + line_b + "`";
+}
+
+}  // namespace
+
+bool names_scene(const po::variables_map& given) {
+  return given.count("case") || given.count("scene") || given.count("variant") ||
+         !overrides_of(given).empty();
+}
+
+Scene scene_of(const po::variables_map& given) {
+  auto overrides = overrides_of(given);
+  const auto text = [&](const char* option) {
+    return given.count(option) ? given[option].as<std::string>() : std::string();
+  };
+  if (given.count("case") && given.count("scene")) throw UsageError("--case and --scene exclude each other");
+  if (given.count("variant") && !given.count("case")) throw UsageError("--variant goes with --case");
+  if (given.count("scene")) return load_scene(text("scene"), overrides);
+  if (given.count("case")) return load_builtin(text("case"), text("variant"), overrides);
+  if (given.count("check")) return load_scene(fs::path(text("check")) / "scene.toml", overrides);
+  if (given.count("resume"))
+    throw UsageError(overrides.front().option +
+                     ": --resume goes on with the scene in the checkpoint, which cannot be changed");
+  throw UsageError(
+      "nothing to run: name a --case (bar, column), a --scene FILE, or a golden folder to --check");
+}
+
+void demand_same_scene(Scene& scene, const po::variables_map& given) {
+  const std::string folder = given["check"].as<std::string>();
+  const Scene golden = load_scene(fs::path(folder) / "scene.toml", {});
+  if (!given.count("snapshots") && scene.origins.count("output.snapshots") == 0) scene.output = golden.output;
+  const std::string mine = scene_text(scene);
+  const std::string theirs = scene_text(golden);
+  if (mine == theirs) return;
+  throw UsageError("--check " + folder +
+                   ": a golden of another scene: " + first_different_line(mine, theirs));
+}
+
+void demand_resumed_scene(const Scene& scene, const Scene& resumed, const po::variables_map& given) {
+  const std::string mine = scene_text(scene);
+  const std::string theirs = scene_text(resumed);
+  if (mine == theirs) return;
+  throw UsageError("--resume " + given["resume"].as<std::string>() +
+                   ": a checkpoint of another scene: " + first_different_line(mine, theirs));
+}
+
+}  // namespace hompm::cli

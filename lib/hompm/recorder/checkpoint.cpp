@@ -1,0 +1,183 @@
+#include <string_view>
+
+#include <hompm/build_info.hpp>
+#include <hompm/output/run_folder.hpp>
+#include <hompm/plan/state_fields.hpp>
+#include <hompm/recorder/bytes.hpp>
+#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scheme/scheme.hpp>
+#include <hompm/simulation/columns.hpp>
+
+namespace hompm {
+namespace {
+
+using detail::ByteReader;
+using detail::ByteWriter;
+
+constexpr std::string_view magic = "hompm checkpoint";
+constexpr std::uint64_t format = 1;
+constexpr std::size_t head_size = magic.size() + 3 * 8;  // magic, format, length, hash
+
+/// The sums of a point, in the order in which they are written; `Any` is a `RunPoint`, const or not.
+template <class Any, class Visit>
+void visit_sums(Any& point, Visit visit) {
+  // Every member is named, so that a new one does not compile before it has its place here.
+  auto& [state, extremes, supplied, quiet_steps] = point;
+  auto& [residual, momentum_residual, internal_force_sum, energy, momentum] = extremes;
+  visit(residual);
+  visit(momentum_residual);
+  visit(internal_force_sum);
+  visit(energy);
+  visit(momentum);
+  visit(supplied);
+}
+
+std::string identity() { return build_info().version + " (" + build_info().commit + ")"; }
+
+void write_records(ByteWriter& out, const Checkpoint& checkpoint) {
+  out.word(checkpoint.history.size());
+  for (const HistoryRow& row : checkpoint.history) {
+    out.number(row.time);
+    for (const auto& column : detail::history_columns) out.number(row.*column.value);
+  }
+  out.word(checkpoint.snapshots.size());
+  for (const Snapshot& snapshot : checkpoint.snapshots) {
+    out.number(snapshot.time);
+    out.word(snapshot.size());
+    for (const auto& column : detail::all_columns)
+      for (const double value : snapshot.*column.values) out.number(value);
+  }
+}
+
+void read_records(ByteReader& in, Checkpoint& checkpoint) {
+  checkpoint.history.resize(in.count(8));
+  for (HistoryRow& row : checkpoint.history) {
+    row.time = in.number();
+    for (const auto& column : detail::history_columns) row.*column.value = in.number();
+  }
+  checkpoint.snapshots.resize(in.count(8));
+  for (Snapshot& snapshot : checkpoint.snapshots) {
+    snapshot.time = in.number();
+    const std::size_t size = in.count(8);
+    for (const auto& column : detail::all_columns) {
+      auto& values = snapshot.*column.values;
+      values.resize(size);
+      for (double& value : values) value = in.number();
+    }
+  }
+}
+
+void write_point(ByteWriter& out, const RunPoint& point) {
+  visit_sums(point, [&](double value) { out.number(value); });
+  out.word(detail::word_of(point.quiet_steps));
+  visit_fields(point.state, [&](std::string_view name, Site, auto values) {
+    out.text(name);
+    out.word(values.size());
+    for (const auto value : values) out.word(detail::word_of(value));
+  });
+}
+
+void read_value(ByteReader& in, double& value) { value = in.number(); }
+void read_value(ByteReader& in, std::integral auto& value) {
+  value = static_cast<std::remove_reference_t<decltype(value)>>(in.word());
+}
+
+/// Throws `Error` when a field is not what the scene makes it.
+void read_point(ByteReader& in, RunPoint& point) {
+  visit_sums(point, [&](double& value) { value = in.number(); });
+  read_value(in, point.quiet_steps);
+  visit_fields(point.state, [&](std::string_view name, Site, auto values) {
+    const std::string found = in.text();
+    if (found != name) throw Error("it has the field " + found + " in place of " + std::string(name));
+    if (in.count(8) != values.size()) throw Error("its field " + found + " does not fit its scene");
+    for (auto& value : values) read_value(in, value);
+  });
+}
+
+Checkpoint read_content(std::string_view bytes, const std::string& source) {
+  ByteReader in(bytes);
+  if (const std::string writer = in.text(); writer != identity())
+    throw Error("it was written by hompm " + writer + ", and this is " + identity() +
+                ": the result would be that of neither");
+  Checkpoint checkpoint = first_checkpoint(parse_scene(in.text(), "scene in " + source, {}));
+  read_value(in, checkpoint.every);
+  checkpoint.vtk = in.word() != 0;
+  checkpoint.seconds = in.number();
+  read_records(in, checkpoint);
+  read_point(in, checkpoint.point);
+  if (in.left() > 0) throw Error("there is more in it than a checkpoint");
+  return checkpoint;
+}
+
+}  // namespace
+
+Checkpoint first_checkpoint(const Scene& scene) {
+  return {.scene = scene,
+          .history = {},
+          .snapshots = {},
+          .point = {initial_state(scene, choose_scheme(scene.scheme).markers)}};
+}
+
+std::string checkpoint_bytes(const Checkpoint& checkpoint) {
+  ByteWriter rest;
+  rest.text(identity());
+  rest.text(scene_text(checkpoint.scene));
+  rest.word(detail::word_of(checkpoint.every));
+  rest.word(checkpoint.vtk ? 1 : 0);
+  rest.number(checkpoint.seconds);
+  write_records(rest, checkpoint);
+  write_point(rest, checkpoint.point);
+
+  ByteWriter head;
+  head.bytes = magic;
+  head.word(format);
+  head.word(rest.bytes.size());
+  head.word(detail::hash_of_bytes(rest.bytes));
+  return head.bytes + rest.bytes;
+}
+
+Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source) {
+  const auto refuse = [&](const std::string& reason) {
+    throw CheckpointError("cannot resume from " + source + ": " + reason);
+  };
+  const std::string_view all = bytes;
+  if (all.substr(0, magic.size()) != magic.substr(0, all.size()) || all.empty())
+    refuse("it is not a checkpoint of hompm");
+  if (all.size() < head_size) refuse("it is cut short, after " + std::to_string(all.size()) + " bytes");
+  ByteReader head(all.substr(magic.size()));
+  if (const auto found = head.word(); found != format)
+    refuse("it has the format " + std::to_string(found) + ", and this hompm reads " + std::to_string(format));
+  const auto length = head.word();
+  const auto hash = head.word();
+  const std::string_view rest = all.substr(head_size);
+  if (rest.size() < length)
+    refuse("it is cut short: " + std::to_string(rest.size()) + " bytes of " + std::to_string(length));
+  if (rest.size() > length) refuse("it is damaged: it is longer than it says");
+  if (detail::hash_of_bytes(rest) != hash) refuse("it is damaged: its checksum does not match");
+  try {
+    return read_content(rest, source);
+  } catch (const CheckpointError&) {
+    throw;
+  } catch (const Error& error) {
+    throw CheckpointError("cannot resume from " + source + ": " + error.what());
+  }
+}
+
+std::filesystem::path checkpoint_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return path;
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+  const auto folder = checkpoint_folder(path);
+  const auto file = folder == path ? path / checkpoint_name : path;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(folder / "run.json", ignored))
+    throw CheckpointError("cannot resume from " + path.string() +
+                          ": there is no checkpoint, and the run in " + folder.string() + " is complete");
+  return parse_checkpoint(detail::read_bytes(file), path.string());
+}
+
+}  // namespace hompm

@@ -1,0 +1,49 @@
+// A run under way in a file, from which it goes on as if it had never stopped.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <hompm/simulation/run.hpp>
+
+namespace hompm {
+
+/// A checkpoint that cannot be resumed from; `what()` names the file and says why.
+class CheckpointError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// Everything a run is and has reported so far.
+struct Checkpoint {
+  Scene scene;
+  std::int64_t every = 0;  ///< steps between two checkpoints
+  bool vtk = true;         ///< vtk files were asked for
+  double seconds = 0.0;    ///< on the wall clock so far
+  std::vector<HistoryRow> history;
+  std::vector<Snapshot> snapshots;
+  RunPoint point;
+};
+
+/// A checkpoint of a run that has not begun: nothing reported, the state at t = 0.
+Checkpoint first_checkpoint(const Scene& scene);
+
+/// The checkpoint as bytes, the same on every machine: a header, the length and a hash of the rest
+/// (recorder/bytes.hpp), and the rest, every value little-endian. Bound to the version and the commit of this
+/// build: another one may compute other bits.
+std::string checkpoint_bytes(const Checkpoint& checkpoint);
+
+/// What `checkpoint_bytes` gave; `source` is the name of the file in messages. Throws `CheckpointError` for
+/// anything that is not a whole checkpoint of this version and commit.
+Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source);
+
+/// The run folder in which the checkpoint `path` lies; `path` may be that folder.
+std::filesystem::path checkpoint_folder(const std::filesystem::path& path);
+
+/// The checkpoint in the file `path`, or in the run folder `path`. Throws `FileError` when it cannot be read,
+/// else as above.
+Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+}  // namespace hompm
