@@ -6,6 +6,7 @@
 //   hompm-diff --relative stress=1e-9 --absolute displacement=1e-12 run golden/bar-large
 //   hompm-diff --json run golden/bar-large
 //   hompm-diff --relative all=1e-2 theirs.csv golden/bar-large
+//   hompm-diff --trace mine.trace theirs.trace
 //
 // Description:
 //   Compares particles.csv, stress.csv and history.csv of folder A with those of folder B, bit for bit, and
@@ -27,6 +28,7 @@
 #include "common.hpp"
 #include "comparison_text.hpp"
 #include "foreign.hpp"
+#include "trace_diff.hpp"
 
 namespace {
 
@@ -42,6 +44,7 @@ po::options_description options() {
       ("absolute", words("FIELD=T"), "values of FIELD may differ by T, in the unit of the field")  //
       ("relative", words("FIELD=T"), "… by T times the largest value of FIELD at that time in B")  //
       ("ulps", words("FIELD=N"), "… by N units in the last place")                                 //
+      ("trace", "A and B are files of hompm-run --trace: say where the runs part first")           //
       ("json", "print one JSON object")                                                            //
       ("quiet", "print nothing; only the exit code tells")                                         //
       ("help", "print this help and exit")                                                         //
@@ -118,6 +121,17 @@ int compare(int argc, char** argv) {
   }
   if (given.count("quiet") > 0 && given.count("json") > 0) {
     throw hompm::cli::UsageError("--quiet and --json contradict each other");
+  }
+  if (given.count("trace") > 0) {
+    for (const char* bound : {"absolute", "relative", "ulps"})
+      if (given.count(bound) > 0)
+        throw hompm::cli::UsageError("--trace compares bits: it takes no --" + std::string(bound));
+    hompm::cli::refuse_foreign_options(given);
+    using hompm::cli::Report;
+    return hompm::cli::diff_traces(folders[0], folders[1],
+                                   given.count("json") > 0    ? Report::json
+                                   : given.count("quiet") > 0 ? Report::none
+                                                              : Report::text);
   }
   std::error_code unreadable;  // then it is not a file, and the comparison says why
   if (std::filesystem::is_regular_file(folders[0], unreadable)) {

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -25,6 +26,7 @@
 #include <hompm/output/run_folder.hpp>
 #include <hompm/output/run_report.hpp>
 #include <hompm/recorder/checkpoint_writer.hpp>
+#include <hompm/recorder/trace.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/verify/compare.hpp>
@@ -61,6 +63,8 @@ po::options_description make_options() {
       "json", "print run.json instead of the summary")("quiet", "print nothing but errors")(
       "checkpoint", text("EVERY"), "write checkpoint.hompm into the output folder every EVERY steps")(
       "resume", text("FILE"), "go on from a checkpoint, in its folder unless --output is given")(
+      "trace", text("FILE"), "write a hash of every field after every stage, for hompm-diff --trace")(
+      "trace-values", text("STEP"), "with --trace: write all values from step STEP on (default 0), too")(
       "list", "list cases, schemes, materials and effects")("version", "print the version")("help",
                                                                                             "print this");
   return options;
@@ -107,6 +111,18 @@ hompm::Checkpoint starting_point(const hompm::Scene& scene, const po::variables_
   return point;
 }
 
+/// The trace that --trace asks for; nothing without.
+std::unique_ptr<hompm::Trace> open_trace(const po::variables_map& given) {
+  hompm::TraceOptions options;
+  if (given.count("trace-values")) {
+    if (!given.count("trace")) throw UsageError("--trace-values goes with --trace");
+    options.values_from =
+        hompm::cli::parse_steps(given["trace-values"].as<std::string>(), "--trace-values", 0);
+  }
+  if (!given.count("trace")) return nullptr;
+  return std::make_unique<hompm::Trace>(given["trace"].as<std::string>(), options);
+}
+
 /// Runs the scene into its folder. A run that becomes invalid leaves its last valid snapshot, marked as such.
 int run_scene(const hompm::Scene& scene, const po::variables_map& given,
               std::optional<hompm::Checkpoint> from) {
@@ -120,6 +136,7 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
   }
   hompm::RunFolder folder(output_folder(given, scene), begin.vtk);
 
+  const auto trace = open_trace(given);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return begin.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -142,6 +159,7 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
   };
   observer.checkpoint = [&](const hompm::RunPoint& point) { checkpoints->write(point, seconds()); };
   observer.checkpoint_every = begin.every;
+  if (trace) observer.start = [&](hompm::Simulation& simulation) { trace->attach(scene, simulation); };
   std::optional<hompm::RunResult> result;
   try {
     hompm::cli::ProgressBar bar(quiet);
@@ -151,6 +169,7 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
     folder.keep_invalid(last_valid, invalid.what());
     throw;
   }
+  if (trace) trace->close();
 
   std::string no_errors_because;
   const auto errors = hompm::judge(scene, *result, no_errors_because);

@@ -1,0 +1,77 @@
+// Reads a trace, entry by entry.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <hompm/plan/state_fields.hpp>
+#include <hompm/recorder/bytes.hpp>
+
+namespace hompm::detail {
+
+struct TraceStage {
+  std::string name;
+  std::string called_by;
+};
+
+struct TraceField {
+  std::string name;
+  Site site;
+  bool is_integer;
+  std::size_t size;         ///< entries
+  std::uint64_t hash;       ///< of the last entry that was taken
+  std::string_view values;  ///< then, 8 bytes each; empty when they are not in the trace
+};
+
+/// A field after a stage that changed it.
+struct TraceEntry {
+  std::int64_t step;
+  int part;  ///< of the step, from 1
+  std::size_t stage;
+  std::size_t field;
+  auto operator<=>(const TraceEntry&) const = default;
+};
+
+class TraceFile {
+ public:
+  /// Reads the whole file; messages call it `name`. Throws `FileError` when it cannot be read or is damaged.
+  TraceFile(const std::filesystem::path& path, std::string name);
+
+  std::string name;
+  std::string build;
+  std::string scene;  ///< TOML
+  std::size_t markers = 0;
+  std::int64_t first_step = 0;  ///< after which it begins
+  std::vector<TraceStage> stages;
+  std::vector<TraceField> fields;
+
+  /// The entry that `take` will take; none at the end.
+  [[nodiscard]] const std::optional<TraceEntry>& next() const { return next_; }
+  /// Brings its field up to date.
+  void take();
+  /// The last step that has begun, up to `next`.
+  [[nodiscard]] std::int64_t step() const { return step_; }
+  /// It has an end, so the run was not cut off.
+  [[nodiscard]] bool complete() const { return complete_; }
+
+ private:
+  void read_header();
+  void read_next();
+  void read_entry(std::uint64_t stage);
+  [[noreturn]] void damaged() const;
+
+  std::string bytes_;
+  ByteReader in_{""};
+  std::optional<TraceEntry> next_;
+  std::uint64_t next_hash_ = 0;
+  std::string_view next_values_;
+  std::int64_t step_ = 0;
+  int part_ = 1;
+  bool complete_ = false;
+};
+
+}  // namespace hompm::detail
