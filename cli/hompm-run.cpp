@@ -135,7 +135,6 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
     return hompm::cli::success;
   }
   hompm::RunFolder folder(output_folder(given, scene), begin.vtk);
-
   const auto trace = open_trace(given);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
@@ -143,6 +142,9 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
   };
   std::optional<hompm::CheckpointWriter> checkpoints;
   if (begin.every > 0) checkpoints.emplace(folder, begin, hompm::cli::warn);
+  if (!resumed && !quiet && fs::exists(folder.path() / hompm::checkpoint_name))
+    hompm::cli::warn("the run that was stopped in " + folder.path().string() + " is replaced (--resume " +
+                     folder.path().string() + " would go on with it)");
   for (const auto& row : begin.history) folder.write(row);
   for (const auto& snapshot : begin.snapshots) folder.write(snapshot);
   hompm::Snapshot last_valid = begin.snapshots.empty() ? hompm::Snapshot{} : begin.snapshots.back();

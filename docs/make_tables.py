@@ -334,6 +334,7 @@ ROOMS = {
     "reference": "exact and reference solutions",
     "verify": "error norms, comparison of result folders, and of another code's results with one",
     "output": "CSV, VTU, run.json, the summary; files appear whole or not at all",
+    "recorder": "checkpoints and traces: the state of a run as bytes",
 }
 
 
@@ -349,6 +350,18 @@ def rooms(_tools):
         used = set(re.findall(r"#include <hompm/(\w+)/", text)) - {room}
         rows.append([f"`{room}`", purpose, ", ".join(name for name in ROOMS if name in used) or "–"])
     return table(["room", "what it holds", "uses"], rows)
+
+
+def parting(tools):
+    """What hompm-diff says about two traces, and how large a trace is."""
+    stronger = ["--set", "effect.gravity.acceleration=-9.810000000000002"]
+    for name, extra in (("mine", []), ("other", stronger)):
+        tools.report("--case", "column", "--end-time", "0.1", "--trace", f"{name}.trace", *extra)
+    done = subprocess.run([tools.run_tool.with_name("hompm-diff"), "--trace", "mine.trace", "other.trace"],
+                          capture_output=True, text=True, check=False, cwd=tools.work)
+    steps = tools.report("--case", "bar", "--trace", "whole.trace")[0]["steps"]
+    size = os.path.getsize(tools.work / "whole.trace") / 1e6
+    return ["```text", *done.stdout.rstrip().split("\n"), "```", "", f"The trace of the whole bar, {steps} steps, has {size:.0f} MB."]
 
 
 def plan(tools):
@@ -374,7 +387,7 @@ def output(tools):
 
 PARTS = {
     "schemes": schemes, "choices": choices, "cases": cases, "plan": plan, "output": output, "limits": limits, "limits-p1": limits_p1,
-    "rooms": rooms, "mistake": mistake,
+    "rooms": rooms, "mistake": mistake, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,

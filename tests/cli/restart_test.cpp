@@ -59,6 +59,15 @@ TEST_CASE("a killed run is resumed in its folder, or in another, and ends with t
   CHECK_THAT(again.err, contains("there is no checkpoint, and the run in") && contains("is complete"));
 }
 
+TEST_CASE("who forgets --resume is told") {
+  const TemporaryFolder scratch;
+  write_file(scratch / "checkpoint.hompm", "of a run that was stopped");
+  const std::string again = tool + scene + " --no-vtk --output " + quoted(scratch.path().string());
+  CHECK_THAT(run_command(again).err, contains("hompm-run: warning: the run that was stopped in ") &&
+                                         contains("is replaced (--resume "));
+  CHECK(run_command(again).err.empty());
+}
+
 TEST_CASE("a resumed run writes no vtk files where the first was not asked for them") {
   const TemporaryFolder scratch;
   kill_early(scratch / "killed", scene + " --no-vtk --checkpoint 10");

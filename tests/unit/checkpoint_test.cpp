@@ -39,7 +39,7 @@ void check_resuming(const hompm::Scene& scene, std::int64_t every) {
     CHECK(same_bits(numbers_of(rest), numbers_of(whole)));
     // what it would go on from later is the same, too
     if (!rest.points.empty())
-      CHECK(checkpoint_bytes(rest.points.back()) == checkpoint_bytes(whole.points.back()));
+      CHECK((checkpoint_bytes(rest.points.back()) == checkpoint_bytes(whole.points.back())));
   }
 }
 

@@ -16,11 +16,11 @@ struct TraceOptions {
 };
 
 /// Writes a trace: after each stage of the plan a hash of every field that the stage changed
-/// (docs/reproducibility.md has the format). A run without one is not touched.
+/// (docs/tracing.md has the format). A run without one is not touched.
 class Trace {
  public:
   /// Opens the file. Throws `FileError`.
-  Trace(const std::filesystem::path& path, const TraceOptions& options = {});
+  explicit Trace(const std::filesystem::path& path, const TraceOptions& options = {});
   /// Ends the trace as far as that is possible.
   ~Trace();
   Trace(const Trace&) = delete;

@@ -2,7 +2,6 @@
 #include <bit>
 #include <cmath>
 #include <sstream>
-#include <tuple>
 
 #include <hompm/number.hpp>
 #include <hompm/recorder/trace_comparison.hpp>
@@ -31,12 +30,16 @@ std::uint64_t distance(std::uint64_t a, std::uint64_t b, bool is_integer) {
   return std::max(x, y) - std::min(x, y);
 }
 
+/// Particles and markers.
+std::size_t sites_of(const TraceFile& file) {
+  const auto& fields = file.fields;
+  return std::find_if(fields.begin(), fields.end(), [](const auto& f) { return f.site == Site::particle; })
+      ->size;
+}
+
 std::string particle_text(const TraceFile& file, std::size_t site) {
-  const auto sites = std::find_if(file.fields.begin(), file.fields.end(), [](const auto& f) {
-                       return f.site == Site::particle;
-                     })->size;
   if (site < file.markers) return "the marker at the left end";
-  if (site >= sites - file.markers) return "the marker at the right end";
+  if (site >= sites_of(file) - file.markers) return "the marker at the right end";
   return "particle " + std::to_string(site - file.markers);
 }
 
@@ -44,10 +47,7 @@ std::string place_of(const TraceFile& file, const TraceField& field, std::size_t
   if (field.site == Site::run) return "";
   if (field.site == Site::function) return "grid function " + std::to_string(entry);
   if (field.site == Site::particle) return particle_text(file, entry);
-  const auto sites = std::find_if(file.fields.begin(), file.fields.end(), [](const auto& f) {
-                       return f.site == Site::particle;
-                     })->size;
-  const std::size_t stencil = field.size / sites;
+  const std::size_t stencil = field.size / sites_of(file);
   return particle_text(file, entry / stencil) + ", function " + std::to_string(entry % stencil) + " there";
 }
 
