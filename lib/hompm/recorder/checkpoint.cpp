@@ -17,7 +17,7 @@ using detail::ByteWriter;
 
 constexpr std::string_view magic = "hompm checkpoint";
 constexpr std::uint64_t format = 1;
-constexpr std::size_t head_size = magic.size() + 3 * 8;  // magic, format, length, hash
+constexpr std::size_t head_size = magic.size() + 24;  // magic, format, length, hash
 
 /// The sums of a point, in the order in which they are written; `Any` is a `RunPoint`, const or not.
 template <class Any, class Visit>

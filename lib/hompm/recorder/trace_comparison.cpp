@@ -104,14 +104,19 @@ struct Pair {
   }
 };
 
+std::string in_both(const std::string& a, const std::string& b) {
+  std::string text = " is ";
+  text.append(a).append(" in A and ").append(b).append(" in B");
+  return text;
+}
+
 bool same_shape(Pair& pair) {
   const auto& [a, b, found] = pair;
   for (std::size_t i = 0; i < std::max(a.stages.size(), b.stages.size()); ++i) {
     const std::string in_a = i < a.stages.size() ? a.stages[i].name : "none";
     const std::string in_b = i < b.stages.size() ? b.stages[i].name : "none";
     if (in_a == in_b) continue;
-    pair.differ("the plans differ: stage " + std::to_string(i) + " is `" + in_a + "` in A and `" + in_b +
-                "` in B");
+    pair.differ("the plans differ: stage " + std::to_string(i) + in_both("`" + in_a + "`", "`" + in_b + "`"));
     return false;
   }
   for (std::size_t i = 0; i < std::max(a.fields.size(), b.fields.size()); ++i) {
@@ -121,8 +126,7 @@ bool same_shape(Pair& pair) {
                                     : std::string("none");
     };
     if (text(a) == text(b)) continue;
-    pair.differ("the states differ: field " + std::to_string(i) + " is " + text(a) + " in A and " + text(b) +
-                " in B");
+    pair.differ("the states differ: field " + std::to_string(i) + in_both(text(a), text(b)));
     return false;
   }
   return true;

@@ -42,9 +42,9 @@ void TraceFile::read_header() {
   scene = in_.text();
   markers = static_cast<std::size_t>(in_.word());
   first_step = step_ = static_cast<std::int64_t>(in_.word());
-  stages.resize(in_.count(2 * 8));
+  stages.resize(in_.count(16));
   for (TraceStage& stage : stages) stage = {in_.text(), in_.text()};
-  fields.resize(in_.count(5 * 8));
+  fields.resize(in_.count(40));
   for (TraceField& field : fields) {
     field.name = in_.text();
     field.site = static_cast<Site>(in_.word());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <hompm/plan/state_fields.hpp>
@@ -33,7 +34,10 @@ struct TraceEntry {
   int part;  ///< of the step, from 1
   std::size_t stage;
   std::size_t field;
-  auto operator<=>(const TraceEntry&) const = default;
+  bool operator==(const TraceEntry&) const = default;
+  bool operator<(const TraceEntry& other) const {
+    return std::tie(step, part, stage, field) < std::tie(other.step, other.part, other.stage, other.field);
+  }
 };
 
 class TraceFile {
