@@ -22,8 +22,8 @@ enum class Site {
 template <class AnyState, class Visit>
 void visit_fields(AnyState& state, Visit visit) {
   // Every member is named, so that a new one does not compile before it has its place here.
-  auto& [step, time, time_step, kick, drift, grid, ends, moves, total_mass, left_boundary, right_boundary,
-         left_stress, right_stress, particles, basis, fields, balance] = state;
+  auto& [step, time, position_time, time_step, kick, drift, grid, ends, moves, total_mass, left_boundary,
+         right_boundary, left_stress, right_stress, particles, basis, fields, balance] = state;
   auto& [markers, reference_position, displacement, position, velocity, mass, reference_density,
          reference_volume, volume, stretch, stress] = particles;
   auto& [first, values, gradients] = basis;
@@ -32,6 +32,7 @@ void visit_fields(AnyState& state, Visit visit) {
 
   visit("step", Site::run, std::span(&step, 1));
   visit("time", Site::run, std::span(&time, 1));
+  visit("position_time", Site::run, std::span(&position_time, 1));
   visit("time_step", Site::run, std::span(&time_step, 1));
   visit("kick", Site::run, std::span(&kick, 1));
   visit("drift", Site::run, std::span(&drift, 1));

@@ -113,10 +113,7 @@ Checkpoint read_content(std::string_view bytes, const std::string& source) {
 }  // namespace
 
 Checkpoint first_checkpoint(const Scene& scene) {
-  return {.scene = scene,
-          .history = {},
-          .snapshots = {},
-          .point = {initial_state(scene, choose_scheme(scene.scheme).markers)}};
+  return {.scene = scene, .history = {}, .snapshots = {}, .point = {initial_state(scene)}};
 }
 
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {
