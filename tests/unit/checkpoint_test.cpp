@@ -65,7 +65,7 @@ std::string replaced(std::string text, const std::string& part, const std::strin
 TEST_CASE("a resumed run is bit-equal, for every scheme, degree, integrator, kinematics and effect") {
   const auto& scheme = GENERATE(from_range(hompm::scheme_table()));
   const std::string kinematics = GENERATE("finite", "infinitesimal");
-  for (const auto& integrator : hompm::integrator_names())
+  for (const std::string integrator : {"euler-cromer", "leapfrog", "blanes-moan"})
     for (int degree = scheme.lowest_degree; degree <= scheme.highest_degree; ++degree) {
       INFO(scheme.name << " of degree " << degree << ", " << integrator << ", " << kinematics);
       check_resuming(busy_scene(scheme.name, degree, integrator, kinematics), 17);

@@ -58,11 +58,11 @@ struct Balance {
 
 struct State {
   std::int64_t step = 0;
-  double time = 0.0;       ///< s, at the end of the step under way
+  double time = 0.0;           ///< s, at the end of the step under way
   double position_time = 0.0;  ///< s, of the positions at which its forces act
-  double time_step = 0.0;  ///< s
-  double kick = 0.0;       ///< s, by which the part of the step under way changes velocities
-  double drift = 0.0;      ///< s, by which it changes positions
+  double time_step = 0.0;      ///< s
+  double kick = 0.0;           ///< s, by which the part of the step under way changes velocities
+  double drift = 0.0;          ///< s, by which it changes positions
 
   numerics::SplineSpace grid;
   Ends ends;
@@ -87,8 +87,8 @@ struct State {
 };
 
 /// The state of a scene at t = 0: particles at (2i − 1)/(2k) of each cell with equal volumes, initial
-/// velocity, no stress; the grid reaches `margin_cells` beyond each free end; markers where the scene's scheme
-/// has them. Allocates every array a step needs.
+/// velocity, no stress; the grid reaches `margin_cells` beyond each free end; markers where the scene's
+/// scheme has them. Allocates every array a step needs.
 State initial_state(const Scene& scene);
 
 }  // namespace hompm

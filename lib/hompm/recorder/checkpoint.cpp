@@ -6,7 +6,6 @@
 #include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/checkpoint.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/columns.hpp>
 
 namespace hompm {

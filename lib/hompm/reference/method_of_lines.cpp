@@ -154,8 +154,9 @@ class Lines {
 }  // namespace
 
 Resolution suitable_resolution(const Scene& scene, const Loads& loads) {
-  const bool sudden = std::ranges::any_of(
-      loads.gravity, [](const BodyForce& force) { return force.ramp_time == 0.0 && force.acceleration != 0.0; });
+  const bool sudden = std::ranges::any_of(loads.gravity, [](const BodyForce& force) {
+    return force.ramp_time == 0.0 && force.acceleration != 0.0;
+  });
   const bool fixed = scene.ends.left == End::fixed && scene.ends.right == End::fixed;
   const bool pulled = loads.left_stress != 0.0 || loads.right_stress != 0.0;
   const bool smooth = !sudden && (fixed || (!pulled && !scene.initial_velocity));

@@ -57,13 +57,13 @@ struct SchemeSpec {
   int degree = 0;
   int cells = 0;  ///< over the body's length
   int particles_per_cell = 0;
-  int margin_cells = 0;                   ///< grid cells beyond each free end
-  std::optional<double> time_step;        ///< s
-  std::optional<double> courant;          ///< c Δt / h
-  std::optional<double> step_fraction;    ///< Δt over the critical step of the scheme
-  SchemeChoices choices;                  ///< those of the row `name`, but for what the scene says itself
-  double relaxation_rate = 0.0;           ///< 1/s, of the null space
-  bool allow_unstable = false;            ///< run with a step above the critical one all the same
+  int margin_cells = 0;                 ///< grid cells beyond each free end
+  std::optional<double> time_step;      ///< s
+  std::optional<double> courant;        ///< c Δt / h
+  std::optional<double> step_fraction;  ///< Δt over the critical step of the scheme
+  SchemeChoices choices;                ///< those of the row `name`, but for what the scene says itself
+  double relaxation_rate = 0.0;         ///< 1/s, of the null space
+  bool allow_unstable = false;          ///< run with a step above the critical one all the same
 };
 
 /// The run ends as soon as the body is at rest: when no particle has moved faster than `speed` for the time a

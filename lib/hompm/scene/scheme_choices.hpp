@@ -5,8 +5,8 @@ namespace hompm {
 
 /// Where stress (and consistent mass) are integrated.
 enum class Quadrature {
-  particles,            ///< at the particles, with their volumes
-  reconstructed,        ///< at the Gauss points of Tielen et al. 2017, from cubic splines through particle data
+  particles,      ///< at the particles, with their volumes
+  reconstructed,  ///< at the Gauss points of Tielen et al. 2017, from cubic splines through particle data
   reconstructed_exact,  ///< the same, with as many points and splines of such a degree as the basis asks for
 };
 enum class MassForm {

@@ -70,8 +70,8 @@ bool is_choice(const KeyRow& row) { return row.standard == own_choice; }
 void complete_choices(Reading& reading, const Scheme& scheme) {
   Scene own;
   own.scheme.choices = scheme.choices;
-  const bool ready = reading.has("material.density") && reading.has("material.youngs_modulus") &&
-                     reading.has("body.length");
+  const bool ready =
+      reading.has("material.density") && reading.has("material.youngs_modulus") && reading.has("body.length");
   if (scheme.relaxes && ready) {
     // The first angular frequency between fixed ends: the result hardly depends on it.
     const MaterialSpec& material = reading.scene.material;

@@ -31,11 +31,11 @@ Shared make_reconstruction(const State& state, const SchemeChoices& choices) {
     case Quadrature::reconstructed:
       // Tielen et al. (2017) take 2 points in each half of a cell for P = 2.
       return std::make_shared<detail::SplineReconstruction<P, CubicSplineSites, std::max(2, P)>>(state,
-                                                                                                choices);
+                                                                                                 choices);
     default:
       // Products of two functions are of degree 2P: P + 1 points integrate them.
       return std::make_shared<detail::SplineReconstruction<P, detail::MatchingSplines<P>, P + 1>>(state,
-                                                                                                 choices);
+                                                                                                  choices);
   }
 }
 
@@ -58,8 +58,7 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
   if (least_squares)
     builder.add(
         Phase::geometry, "least squares on the grid",
-        [least_squares](State& state) { least_squares->update(state); },
-        "per function: band matrix");
+        [least_squares](State& state) { least_squares->update(state); }, "per function: band matrix");
   if (!splines) return;
   builder.add(
       Phase::geometry, "spline sites and Gauss points",
@@ -115,10 +114,9 @@ void join(const Material& material, PlanBuilder& builder) {
   builder.wants_end_stress = choices.markers;
   const bool relaxes = scheme.relaxation_rate > 0.0;
   const Shared splines = make_reconstruction<P>(builder.state, choices);
-  const auto least_squares =
-      relaxes || choices.velocity_projection == VelocityProjection::least_squares
-          ? std::make_shared<detail::LeastSquares<P>>(builder.state, choices)
-          : nullptr;
+  const auto least_squares = relaxes || choices.velocity_projection == VelocityProjection::least_squares
+                                 ? std::make_shared<detail::LeastSquares<P>>(builder.state, choices)
+                                 : nullptr;
   join_geometry<P>(builder, splines, least_squares);
   join_forces<P>(builder, splines);
   detail::join_velocity<P>(builder, splines, least_squares);

@@ -11,8 +11,8 @@ namespace hompm::detail {
 
 /// The field q_i for which Σ_p w_p (Σ N_i q_i − q_p)² is least: (Σ_p w_p N_i N_j) q_j = Σ_p w_p N_i q_p, over
 /// the functions that no essential condition fixes. A projection to the last bit of arithmetic: fields of the
-/// grid pass it unchanged, polynomials up to degree P among them, and a smooth one is off by O(h^{P+1}) however
-/// coarse the particles are as a quadrature.
+/// grid pass it unchanged, polynomials up to degree P among them, and a smooth one is off by O(h^{P+1})
+/// however coarse the particles are as a quadrature.
 ///
 /// w_p is the mass, so that the projection of the velocity never adds kinetic energy and keeps the momentum.
 /// Markers, which have none, get a tenth of their neighbour's: a polynomial of degree 4 that reaches beyond
@@ -22,8 +22,7 @@ template <int P>
 class LeastSquares {
  public:
   LeastSquares(const State& state, const SchemeChoices& choices)
-      : normal_(state, choices.free_end == FreeEnd::extension),
-        weight_(state.particles.mass) {
+      : normal_(state, choices.free_end == FreeEnd::extension), weight_(state.particles.mass) {
     if (!choices.markers || choices.conserve == Conserve::momentum) return;
     constexpr double share = 0.1;
     weight_.front() = share * weight_[1];

@@ -64,8 +64,8 @@ class StretchFromPositions {
   typename Splines::Fit fit_;
 };
 
-/// u_p += Δt/τ (Σ N_i û_i − u_p), û the nearest field on the grid: what of the displacement the grid cannot see
-/// decays with the rate 1/τ of the scene.
+/// u_p += Δt/τ (Σ N_i û_i − u_p), û the nearest field on the grid: what of the displacement the grid cannot
+/// see decays with the rate 1/τ of the scene.
 template <int P>
 void join_relaxation(PlanBuilder& builder, const std::shared_ptr<LeastSquares<P>>& least_squares) {
   const auto projected = std::make_shared<std::vector<double>>(builder.state.fields.mass.size());
