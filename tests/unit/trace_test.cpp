@@ -222,7 +222,7 @@ TEST_CASE("traces of other plans, states and lengths differ, and say how") {
   trace_of("b", {{"scheme.cells", "4"}, {"end_time", "0.01"}, {"scheme.name", "bspline"}});
   CHECK_THAT(messages(), contains("the plans differ: stage "));
   trace_of("b", {{"scheme.cells", "5"}, {"end_time", "0.01"}});
-  CHECK_THAT(messages(), contains("the states differ: field 10 is particles.reference_position of 16 values "
+  CHECK_THAT(messages(), contains("the states differ: field 11 is particles.reference_position of 16 values "
                                   "in A and particles.reference_position of 20 values in B"));
   trace_of("b", {{"scheme.cells", "4"}, {"end_time", "0.02"}});
   CHECK_THAT(messages(), contains("A ends at step") && contains("up to there they are the same"));
