@@ -57,7 +57,7 @@ std::string run_json(const RunReport& report) {
   Json& errors = json["errors"] = Json::object();
   if (report.errors) {
     errors["reference"] = report.errors->reference;
-    errors["reference_error"] = report.errors->reference_error;
+    errors["reference_error"] = report.errors->reference_errors.displacement;
     errors["displacement"] = json_of(report.errors->displacement);
     errors["velocity"] = json_of(report.errors->velocity);
     errors["stress"] = json_of(report.errors->stress);
@@ -113,7 +113,8 @@ std::string run_summary(const RunReport& report) {
   if (report.errors) {
     const ErrorReport& errors = *report.errors;
     text += "  errors    against " + errors.reference;
-    if (errors.reference_error > 0.0) text += " (its own error: " + brief(errors.reference_error) + ")";
+    if (const double own = errors.reference_errors.displacement; own > 0.0)
+      text += " (its own error: " + brief(own) + ")";
     text += "\n    " + padded("", 14) + padded("relative L2", 14) + padded("rms", 18) + "max\n";
     text += row("displacement", errors.displacement, "m") + row("velocity", errors.velocity, "m/s") +
             row("stress", errors.stress, "Pa");

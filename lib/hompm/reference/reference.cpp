@@ -14,24 +14,30 @@ namespace hompm {
 namespace {
 
 Reference exact(std::string description, FieldsAt at) {
-  return {std::move(description), std::move(at), [] { return 0.0; }};
+  return {std::move(description), std::move(at), [] { return ReferenceErrors{}; }};
+}
+
+/// ‖coarse − fine‖₂ / ‖fine‖₂; 0 where the field vanishes.
+double relative_distance(const std::vector<double>& coarse, const std::vector<double>& fine) {
+  double difference = 0.0;
+  double norm = 0.0;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    difference += (coarse[i] - fine[i]) * (coarse[i] - fine[i]);
+    norm += fine[i] * fine[i];
+  }
+  return norm > 0.0 ? std::sqrt(difference / norm) : 0.0;
 }
 
 /// Lets a coarser solution run along, whose distance is the estimate of the error.
 Reference estimated(std::string description, FieldsAt fine, FieldsAt coarse) {
-  const auto estimate = std::make_shared<double>(0.0);
+  const auto estimate = std::make_shared<ReferenceErrors>();
   const auto at = [fine = std::move(fine), coarse = std::move(coarse), estimate](double time,
                                                                                  std::span<const double> X) {
     ReferenceFields fields = fine(time, X);
-    const std::vector<double> other = coarse(time, X).displacement;
-    double difference = 0.0;
-    double norm = 0.0;
-    for (std::size_t i = 0; i < other.size(); ++i) {
-      const double u = fields.displacement[i];
-      difference += (other[i] - u) * (other[i] - u);
-      norm += u * u;
-    }
-    *estimate = norm > 0.0 ? std::sqrt(difference / norm) : 0.0;
+    const ReferenceFields other = coarse(time, X);
+    *estimate = {.displacement = relative_distance(other.displacement, fields.displacement),
+                 .velocity = relative_distance(other.velocity, fields.velocity),
+                 .stress = relative_distance(other.stress, fields.stress)};
     return fields;
   };
   return {std::move(description), at, [estimate] { return *estimate; }};

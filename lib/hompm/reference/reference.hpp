@@ -18,6 +18,13 @@ struct ReferenceFields {
   std::vector<double> stress;        ///< Pa
 };
 
+/// Relative L2 error of each field.
+struct ReferenceErrors {
+  double displacement = 0.0;
+  double velocity = 0.0;
+  double stress = 0.0;
+};
+
 /// Fields at `time` (s) and reference positions `X` (m, ascending).
 using FieldsAt = std::function<ReferenceFields(double time, std::span<const double> X)>;
 
@@ -26,9 +33,9 @@ struct Reference {
   /// Times must not decrease from call to call. Throws `Error` where they do, and where no smooth solution
   /// exists.
   FieldsAt at;
-  /// Own error of the displacement, relative L2, at the last call of `at`: the difference to a solution with
-  /// half the resolution, which is an upper estimate. 0 for a closed form, and before the first call.
-  std::function<double()> estimated_error;
+  /// Own errors at the last call of `at`: the difference to a solution with half the resolution, which is an
+  /// upper estimate. 0 for a closed form, and before the first call.
+  std::function<ReferenceErrors()> estimated_error;
 };
 
 /// The reference solution of a scene, or nothing where none is known (local damping before rest, say).

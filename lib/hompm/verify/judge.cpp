@@ -33,7 +33,7 @@ std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, st
       detail::sound_fields(*reference, result.final.time, result.final.reference_position, reason);
   if (!exact) return std::nullopt;
   return ErrorReport{.reference = reference->description,
-                     .reference_error = reference->estimated_error(),
+                     .reference_errors = reference->estimated_error(),
                      .displacement = error_norms(result.final.displacement, exact->displacement),
                      .velocity = error_norms(result.final.velocity, exact->velocity),
                      .stress = error_norms(result.final.stress, exact->stress)};

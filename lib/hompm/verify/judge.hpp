@@ -14,8 +14,8 @@ namespace hompm {
 
 /// Errors of the last snapshot against the reference solution.
 struct ErrorReport {
-  std::string reference;         ///< which solution
-  double reference_error = 0.0;  ///< its own, relative L2 of the displacement
+  std::string reference;             ///< which solution
+  ReferenceErrors reference_errors;  ///< its own
   ErrorNorms displacement, velocity, stress;
 };
 

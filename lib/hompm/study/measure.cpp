@@ -1,0 +1,115 @@
+#include <chrono>
+
+#include <hompm/error.hpp>
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scheme/scheme.hpp>
+#include <hompm/simulation/run.hpp>
+#include <hompm/study/measure.hpp>
+
+namespace hompm::study {
+namespace {
+
+std::int64_t bytes_of(const State& state) {
+  std::size_t bytes = state.basis.first.size() * sizeof(std::int32_t);
+  const Particles& p = state.particles;
+  const GridFields& g = state.fields;
+  for (const auto* array :
+       {&p.reference_position, &p.displacement, &p.position, &p.velocity, &p.mass, &p.reference_density,
+        &p.reference_volume, &p.volume, &p.stretch, &p.stress, &state.basis.values, &state.basis.gradients,
+        &g.mass, &g.internal_force, &g.force, &g.acceleration, &g.momentum, &g.velocity})
+    bytes += array->size() * sizeof(double);
+  return static_cast<std::int64_t>(bytes);
+}
+
+Work work_of(const Scene& scene, const TimeStepping& stepping, const State& state) {
+  const Scheme scheme = choose_scheme(scene.scheme);
+  const auto forces = stepping.steps * static_cast<std::int64_t>(splitting(scheme.integrator).drifts.size());
+  const int solves = (scheme.acceleration_mass == MassForm::consistent ? 1 : 0) +
+                     (scheme.velocity_mass == MassForm::consistent ? 1 : 0) + (scheme.relaxes ? 1 : 0);
+  return {.particles = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell,
+          .steps = stepping.steps,
+          .force_evaluations = forces,
+          .mass_solves = forces * solves,
+          .bytes = forces * bytes_of(state)};
+}
+
+/// The steps as planned, for a step that is too large, too.
+TimeStepping planned(Scene scene) {
+  scene.scheme.allow_unstable = true;
+  return time_stepping(scene);
+}
+
+void fail(Record& record, Status status, const std::string& reason) {
+  record.status = status;
+  record.reason = reason;
+}
+
+void run_and_judge(const Scene& scene, const Check& check, Measured& measured) {
+  Record& record = measured.record;
+  const TimeStepping stepping = time_stepping(scene);
+  measured.moments.clear();
+  const RunResult result =
+      run(scene, stepping,
+          {.snapshot = [&](const Snapshot& snapshot) { measured.moments.push_back(snapshot); },
+           .history = {},
+           .progress = [&](std::int64_t, std::int64_t) { check(); }});
+  std::string reason;
+  record.errors = judge(scene, result, reason);
+  if (!record.errors) fail(record, Status::unjudged, reason);
+}
+
+}  // namespace
+
+Scene measured_scene(const Study& study, const Point& point) {
+  Scene scene = scene_of(study, point);
+  // States of a large body cost more to count from than they tell.
+  const bool large = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell > 20000;
+  scene.output = {.snapshots = large ? 1 : 8, .history = 1};
+  return scene;
+}
+
+Measured measure(const Study& study, const Point& point, const std::string& program, const Check& check) {
+  Measured measured;
+  Record& record = measured.record;
+  record.name = point.name;
+  record.program = program;
+  try {
+    const Scene scene = measured_scene(study, point);
+    record.scene = scene_text(scene);
+    record.scheme = scene.scheme.name;
+    record.degree = scene.scheme.degree;
+    record.cells = scene.scheme.cells;
+    record.particles_per_cell = scene.scheme.particles_per_cell;
+    measured.stepping = planned(scene);
+    record.time_step = measured.stepping.time_step;
+    const Simulation start(scene, measured.stepping.time_step);
+    record.work = work_of(scene, measured.stepping, start.state());
+    measured.moments.push_back(start.snapshot(0.0));
+    run_and_judge(scene, check, measured);
+  } catch (const SceneError& error) {
+    fail(record, Status::refused, error.what());
+  } catch (const InvalidRun& error) {
+    fail(record, Status::invalid, error.what());
+  }
+  return measured;
+}
+
+double timed(const Scene& scene) {
+  using Clock = std::chrono::steady_clock;
+  Scene quiet = scene;
+  quiet.output.snapshots = 1;
+  const TimeStepping stepping = time_stepping(quiet);
+  Clock::time_point start;
+  bool started = false;
+  run(quiet, stepping,
+      {.snapshot =
+           [&](const Snapshot&) {
+             if (!started) start = Clock::now();
+             started = true;
+           },
+       .history = {},
+       .progress = {}});
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace hompm::study

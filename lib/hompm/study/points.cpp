@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <hompm/scene_file/reader.hpp>
+#include <hompm/scheme/scheme.hpp>
+#include <hompm/study/study.hpp>
+
+namespace hompm::study {
+namespace {
+
+std::size_t rank(const std::string& key) {
+  static const std::array<std::string, 8> order{"scheme.name",
+                                                "scheme.degree",
+                                                "scheme.time_integrator",
+                                                "scheme.cells",
+                                                "scheme.particles_per_cell",
+                                                "scheme.time_step",
+                                                "scheme.courant",
+                                                "scheme.step_fraction"};
+  return static_cast<std::size_t>(std::find(order.begin(), order.end(), key) - order.begin());
+}
+
+std::string value_at(const std::vector<Setting>& settings, const std::string& key) {
+  for (const Setting& setting : settings)
+    if (setting.key == key) return setting.value;
+  return "";
+}
+
+/// The row of schemes of a point under way; the standard one where nothing names it.
+const Scheme* row_of(const std::vector<Setting>& said, const std::vector<Setting>& fixed) {
+  std::string name = value_at(said, "scheme.name");
+  if (name.empty()) name = value_at(fixed, "scheme.name");
+  if (name.empty()) name = "tielen2017";
+  for (const Scheme& scheme : scheme_table())
+    if (scheme.name == name) return &scheme;
+  return nullptr;
+}
+
+std::vector<std::string> all_values(const std::string& key, const Scheme* row) {
+  std::vector<std::string> values;
+  if (key == "scheme.name")
+    for (const Scheme& scheme : scheme_table()) values.push_back(scheme.name);
+  if (row == nullptr) return values;
+  if (key == "scheme.degree")
+    for (int degree = row->lowest_degree; degree <= row->highest_degree; ++degree)
+      values.push_back(std::to_string(degree));
+  if (key == "scheme.time_integrator") {
+    values.push_back(integrator_names()[static_cast<std::size_t>(row->integrator)]);
+    if (row->integrator == TimeIntegrator::leapfrog) values.emplace_back("blanes-moan");
+  }
+  return values;
+}
+
+std::string name_of(const std::vector<Setting>& settings) {
+  std::string name;
+  for (const auto& [key, value] : settings) name += (name.empty() ? "" : ",") + short_key(key) + "=" + value;
+  return name.empty() ? "as-it-is" : name;
+}
+
+void expand(const Study& study, const Sweep& sweep, std::vector<Setting>& said,
+            const std::function<void(const std::vector<Setting>&)>& take) {
+  if (said.size() == sweep.size()) return take(said);
+  const Axis& axis = sweep[said.size()];
+  for (const std::string& value : axis.values)
+    for (const std::string& one : value == "all" ? all_values(axis.key, row_of(said, study.settings))
+                                                 : std::vector<std::string>{value}) {
+      said.push_back({axis.key, one});
+      expand(study, sweep, said, take);
+      said.pop_back();
+    }
+}
+
+Scene load(const Study& study, const std::vector<Setting>& settings) {
+  std::vector<Override> overrides;
+  for (const auto* list : {&study.settings, &settings})
+    for (const auto& [key, value] : *list) overrides.push_back({key, value, short_key(key) + "=" + value});
+  return study.scene_file.empty() ? load_builtin(study.case_name, study.variant, overrides)
+                                  : load_scene(study.scene_file, overrides);
+}
+
+}  // namespace
+
+std::vector<Point> points_of(const Study& study) {
+  std::vector<Point> points;
+  std::set<std::string> names;
+  for (Sweep sweep : study.sweeps) {
+    std::stable_sort(sweep.begin(), sweep.end(),
+                     [](const Axis& a, const Axis& b) { return rank(a.key) < rank(b.key); });
+    std::vector<Setting> said;
+    expand(study, sweep, said, [&](const std::vector<Setting>& settings) {
+      std::string name = name_of(settings);
+      if (names.insert(name).second) points.push_back({std::move(name), settings});
+    });
+  }
+  return points;
+}
+
+Scene scene_of(const Study& study, const Point& point) { return load(study, point.settings); }
+
+std::vector<Point> checked_points(const Study& study) {
+  load(study, {});
+  std::vector<Point> points = points_of(study);
+  std::map<std::pair<std::string, std::string>, SceneError> complaints;  // by key and value
+  std::set<std::pair<std::string, std::string>> accepted;
+  for (const Point& point : points) {
+    try {
+      scene_of(study, point);
+      for (const auto& [key, value] : point.settings) accepted.insert({key, value});
+    } catch (const SceneError& error) {
+      for (const auto& [key, value] : point.settings) complaints.try_emplace({key, value}, error);
+    }
+  }
+  for (const auto& [value, complaint] : complaints)
+    if (!accepted.contains(value)) throw SceneError(complaint);
+  return points;
+}
+
+}  // namespace hompm::study
