@@ -57,7 +57,7 @@ std::string what_others_need(const Choice& scheme, const std::string& name, doub
 
 std::string brief(double value) {
   std::array<char, 32> text{};
-  const bool plain = value >= 0.095 && value < 9995.0;
+  const bool plain = value == 0.0 || (value >= 0.095 && value < 9995.0);
   if (plain)
     std::snprintf(text.data(), text.size(), value < 9.95 ? "%.1f" : "%.0f", value);
   else

@@ -64,7 +64,7 @@ Scene measured_scene(const Study& study, const Point& point) {
   Scene scene = scene_of(study, point);
   // States of a large body cost more to count from than they tell.
   const bool large = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell > 20000;
-  scene.output = {.snapshots = large ? 1 : 8, .history = 1};
+  scene.output = {.snapshots = large ? 1 : 32, .history = 1};
   return scene;
 }
 

@@ -35,7 +35,7 @@ double timed(const Scene& scene);
 /// States to step from, as a file: what `hompm-study --count` reads. Throws `FileError`.
 void write_moments(const std::filesystem::path& folder, const Measured& measured);
 
-/// Does two steps from each of the states that `write_moments` left in `folder`. How many steps that were.
+/// Does one step from each of the states that `write_moments` left in `folder`. How many steps that were.
 std::int64_t step_from_moments(const std::filesystem::path& folder);
 
 }  // namespace hompm::study

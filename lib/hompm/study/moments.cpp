@@ -14,8 +14,6 @@
 namespace hompm::study {
 namespace {
 
-constexpr std::int64_t steps_each = 2;
-
 /// A field of the particles in a snapshot and in the state.
 struct Field {
   std::vector<double> Snapshot::*reported;
@@ -92,12 +90,12 @@ std::int64_t step_from_moments(const std::filesystem::path& folder) {
   if (std::fread(head.data(), sizeof(double), head.size(), file.get()) != head.size())
     throw FileError("read", path, errno != 0 ? errno : EIO);
   const auto moments = static_cast<std::int64_t>(head[1]);
+  Simulation simulation(scene, head[0]);
   for (std::int64_t moment = 0; moment < moments; ++moment) {
-    Simulation simulation(scene, head[0]);
     restore(scene, file.get(), path, simulation.state());
-    for (std::int64_t step = 0; step < steps_each; ++step) simulation.step();
+    simulation.step();
   }
-  return moments * steps_each;
+  return moments;
 }
 
 }  // namespace hompm::study

@@ -84,12 +84,18 @@ Scene load(const Study& study, const std::vector<Setting>& settings) {
 
 }  // namespace
 
+Sweep in_order(Sweep sweep) {
+  std::sort(sweep.begin(), sweep.end(), [](const Axis& a, const Axis& b) {
+    return std::pair(rank(a.key), a.key) < std::pair(rank(b.key), b.key);
+  });
+  return sweep;
+}
+
 std::vector<Point> points_of(const Study& study) {
   std::vector<Point> points;
   std::set<std::string> names;
-  for (Sweep sweep : study.sweeps) {
-    std::stable_sort(sweep.begin(), sweep.end(),
-                     [](const Axis& a, const Axis& b) { return rank(a.key) < rank(b.key); });
+  for (const Sweep& unordered : study.sweeps) {
+    const Sweep sweep = in_order(unordered);
     std::vector<Setting> said;
     expand(study, sweep, said, [&](const std::vector<Setting>& settings) {
       std::string name = name_of(settings);

@@ -33,7 +33,7 @@ struct Work {
   [[nodiscard]] std::int64_t particle_steps() const { return particles * steps; }
 };
 
-/// Of `Simulation::step`, counted in a few steps that start from states of the run at evenly spaced moments.
+/// Of `Simulation::step`, counted in steps that start from states of the run at evenly spaced moments.
 struct Instructions {
   std::uint64_t counted = 0;       ///< in all counted steps
   std::int64_t counted_steps = 0;  ///

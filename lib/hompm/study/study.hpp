@@ -27,11 +27,11 @@ struct Axis {
 using Sweep = std::vector<Axis>;
 
 struct Study {
-  std::string case_name;          ///< built in; "" where `scene_file` is set
-  std::string variant;            ///< "" for the default one
-  std::string scene_file;         ///< path
-  std::vector<Setting> settings;  ///< the same in every point
-  std::vector<Sweep> sweeps;
+  std::string case_name = {};          ///< built in; "" where `scene_file` is set
+  std::string variant = {};            ///< "" for the default one
+  std::string scene_file = {};         ///< path
+  std::vector<Setting> settings = {};  ///< the same in every point
+  std::vector<Sweep> sweeps = {};
 };
 
 /// One run of a study.
@@ -40,8 +40,11 @@ struct Point {
   std::vector<Setting> settings;
 };
 
-/// The points of all sweeps, in order, each once. Settings are ordered scheme, degree, time integrator,
-/// cells, particles, time step, others: the order of the axes does not matter.
+/// The axes in the order scheme, degree, time integrator, cells, particles, time step, others by name.
+Sweep in_order(Sweep sweep);
+
+/// The points of all sweeps, in order, each once. Their settings are `in_order`: the order of
+/// the axes does not matter.
 std::vector<Point> points_of(const Study& study);
 
 /// The scene of a point. Throws `SceneError`.

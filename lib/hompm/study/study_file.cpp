@@ -166,7 +166,7 @@ std::string study_text(const Study& study) {
   for (const auto& [key, value] : study.settings) text += quoted_key(key) + " = " + toml_value(value) + "\n";
   for (const Sweep& sweep : study.sweeps) {
     text += "\n[[sweep]]\n";
-    for (const Axis& axis : sweep) {
+    for (const Axis& axis : in_order(sweep)) {
       std::string list;
       for (const std::string& value : axis.values) list += (list.empty() ? "" : ", ") + toml_value(value);
       text += quoted_key(axis.key) + " = [" + list + "]\n";
