@@ -5,7 +5,7 @@ set -eu
 
 packages="g++ cmake ninja-build libboost-dev libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev"
 if [ "${1:-}" = --tests ]; then
-  packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy octave clang clang-format clang-tidy lcov valgrind gnuplot-nox"
+  packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy octave clang clang-format clang-tidy lcov valgrind gnuplot-nox snakemake"
 fi
 
 if ! command -v dpkg-query >/dev/null 2>&1; then

@@ -335,6 +335,7 @@ ROOMS = {
     "verify": "error norms, comparison of result folders, and of another code's results with one",
     "output": "CSV, VTU, run.json, the summary; files appear whole or not at all",
     "recorder": "checkpoints and traces: the state of a run as bytes",
+    "study": "error against cost: points, records, Pareto front, answers, diagram",
 }
 
 
@@ -418,6 +419,19 @@ def mentions(tools):
         yield "docs/method.md", name
 
 
+def mentions_of_study(tools):
+    """Options of hompm-study, and the columns of its table."""
+    tool = tools.run_tool.parent / "hompm-study"
+    text = subprocess.run([tool, "--help"], capture_output=True, text=True, check=True).stdout
+    yield from (("docs/accuracy-cost.md", option) for option in re.findall(r"^ +(--[\w-]+)", text, re.MULTILINE))
+    folder = tools.work / "study"
+    subprocess.run([tool, "--case", "bar", "--set", "end_time=0.01", "--vary", "cells=8", "--repeats", "0", "--no-instructions",
+                    "--quiet", "--output", folder], capture_output=True, check=True)
+    with open(folder / "points.csv", newline="", encoding="utf-8") as file:
+        columns = next(csv.reader(file))
+    yield from (("docs/accuracy-cost.md", column) for column in columns if not column.startswith(("velocity_", "stress_")))
+
+
 def keys_of(scene):
     for key, value in scene.items():
         inner = value[0] if isinstance(value, list) else value
@@ -458,7 +472,7 @@ def main():
                 path.write_text(new)
                 print(f"{path.relative_to(ROOT)}: written anew")
         complaints += [f"make_tables: the part {name} stands in no file" for name in PARTS if name not in texts]
-        for name, word in dict.fromkeys(mentions(tools)):
+        for name, word in dict.fromkeys([*mentions(tools), *mentions_of_study(tools)]):
             if f"`{word}`" not in (ROOT / name).read_text():
                 complaints.append(f"{name} does not mention `{word}`")
     for complaint in complaints:

@@ -90,6 +90,7 @@ Measured measure(const Study& study, const Point& point, const std::string& prog
     fail(record, Status::refused, error.what());
   } catch (const InvalidRun& error) {
     fail(record, Status::invalid, error.what());
+    measured.moments.resize(1);  // the later ones may be past stepping from
   }
   return measured;
 }

@@ -1,0 +1,237 @@
+#!/usr/bin/env python3
+"""Writes docs/accuracy-cost.md anew: runs the studies of docs/studies, keeps their numbers as CSV beside them, their pictures
+in docs/pictures, and the generated parts of the page.
+
+    docs/make_study.py [--tool build/release/bin] [--work build/study] [--repeats 5] [--check]
+
+A run that was interrupted goes on in the folder --work. With --check nothing is written: the exit code is 1 when the page does
+not say what the CSV files say, or when they are not current. That is seen from a few cheap points, `SUBSET`, run anew: their
+errors must be the same to the digit, their instructions the same to 0.5 %. Another compiler makes other instructions; they are
+then passed over, with a note.
+"""
+import argparse
+import concurrent.futures
+import csv
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from make_tables import ROOT, short, table  # noqa: E402
+
+PAGE = ROOT / "docs/accuracy-cost.md"
+STUDIES = ROOT / "docs/studies"
+NAMES = ["bar-large", "bar-small", "column-large", "column-small"]
+FIELDS = ["displacement", "velocity", "stress"]
+KEPT = ["point", "status", "scheme", "degree", "cells", "particles_per_cell", "particles", "steps",
+        *(f"{field}_relative_l2" for field in FIELDS), "instructions", "instructions_per_particle_and_step"]
+# One point per scheme of each study: what `--check` runs anew. With those of scaling 20 of 472 points, a few seconds.
+SUBSET = {name: ["scheme=classical,cells=16,particles_per_cell=2,courant=0.1", "scheme=bspline,cells=16,particles_per_cell=2,courant=0.1",
+                 "scheme=tielen2017,cells=16,particles_per_cell=2,courant=0.1",
+                 "scheme=high-order,degree=3,time_integrator=leapfrog,cells=16,particles_per_cell=2,courant=0.1"] for name in NAMES}
+SUBSET["scaling"] = [f"scheme={scheme},cells=25" for scheme in ("classical", "bspline", "tielen2017", "high-order")]
+TOLERANCE = 0.005
+
+
+def run(tool, *options):
+    done = subprocess.run([tool / "hompm-study", *map(str, options)], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"hompm-study {' '.join(map(str, options))}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def compiler(tool):
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run([tool / "hompm-run", "--case", "bar", "--cells", "8", "--end-time", "0.01", "--no-vtk", "--json",
+                               "--output", folder], capture_output=True, text=True, check=True)
+        build = json.loads(done.stdout)["build"]
+    return f"{build['compiler']} {build['architecture']} {build['flags']}"
+
+
+def make_study(tool, name, work, repeats):
+    """Runs a study; its points with the times of the last run, as the rows to keep."""
+    folder = work / name
+    run(tool, "--study", STUDIES / f"{name}.toml", "--output", folder, "--repeats", 0 if name == "scaling" else repeats, "--quiet")
+    times = {}
+    if (folder / "times.csv").exists():
+        with open(folder / "times.csv", newline="", encoding="utf-8") as file:
+            times = {row["point"]: row["least"] for row in csv.DictReader(file)}
+    with open(folder / "points.csv", newline="", encoding="utf-8") as file, \
+         open(STUDIES / f"{name}.csv", "w", newline="", encoding="utf-8") as kept:
+        writer = csv.writer(kept, lineterminator="\n")
+        writer.writerow([*KEPT, "seconds"])
+        for row in csv.DictReader(file):
+            writer.writerow([*(row[column] for column in KEPT), times.get(row["point"], "")])
+    if name != "scaling":
+        shutil.copy(folder / "error-instructions.svg", ROOT / f"docs/pictures/accuracy-cost-{name}.svg")
+
+
+def rows_of(name):
+    with open(STUDIES / f"{name}.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def cheapest(rows, field, error):
+    """The row that reaches the error with the fewest instructions, or None."""
+    there = [row for row in rows if row["status"] == "ok" and row["instructions"] and float(row[f"{field}_relative_l2"]) <= error]
+    return min(there, key=lambda row: int(row["instructions"]), default=None)
+
+
+def setting(row):
+    """What of a point is not the same everywhere: p, cells, integrator, Courant number."""
+    said = dict(part.split("=") for part in row["point"].split(","))
+    integrator = f", {said['time_integrator']}" if "time_integrator" in said else ""
+    return f"`{row['scheme']}` p = {row['degree']}, {row['cells']} cells{integrator}, C = {said['courant']}"
+
+
+def count(value):
+    """Three digits with a unit: 1.23 M."""
+    for unit, size in (("G", 1e9), ("M", 1e6), ("k", 1e3)):
+        if value >= size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value:.0f}"
+
+
+def ratio(value):
+    return f"{value:.1f}" if value < 10 else f"{float(f'{value:.2g}'):.0f}"
+
+
+def time_to_accuracy(name):
+    rows = rows_of(name)
+    schemes = list(dict.fromkeys(row["scheme"] for row in rows))
+    lines = []
+    for field in ("displacement", "stress"):
+        table_rows = []
+        for error in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9):
+            best = cheapest(rows, field, error)
+            if best is None:
+                break
+            words = []
+            for scheme in schemes:
+                own = cheapest([row for row in rows if row["scheme"] == scheme], field, error)
+                words.append(ratio(int(own["instructions"]) / int(best["instructions"])) if own else "–")
+            milliseconds = f"{1e3 * float(best['seconds']):.2g}" if best["seconds"] else ""
+            table_rows.append([f"{error:.0e}".replace("e-0", "e-"), setting(best), count(int(best["instructions"])), milliseconds, *words])
+        header = ["error", "cheapest", "instructions", "ms", *(f"`{scheme}`" for scheme in schemes)]
+        lines += ["", f"Relative L2 error of the {field}; the last columns: instructions over those of the cheapest.", "",
+                  *table(header, table_rows, range(2, len(header)))]
+    failed = sum(row["status"] != "ok" for row in rows)
+    return [*lines[1:], "", f"{len(rows)} points, {failed} of them failed: crosses at the upper edge."]
+
+
+def step_cost():
+    """Instructions per particle and step of the large bar, by scheme and degree, with 2 particles per cell and 64 cells."""
+    kinds = {}
+    for row in rows_of("bar-large"):
+        integrator = re.search(r"time_integrator=([\w-]+)", row["point"])
+        kind = (row["scheme"], row["degree"], integrator.group(1) if integrator else "euler-cromer")
+        if row["cells"] == "64" and row["instructions"]:
+            kinds.setdefault(kind, float(row["instructions_per_particle_and_step"]))
+    return table(["scheme", "p", "integrator", "instructions per particle and step"],
+                 [[f"`{scheme}`", degree, integrator, f"{value:.0f}"] for (scheme, degree, integrator), value in kinds.items()], (1, 3))
+
+
+def scaling():
+    rows = rows_of("scaling")
+    schemes = list(dict.fromkeys(row["scheme"] for row in rows))
+    counts = list(dict.fromkeys(row["particles"] for row in rows))
+    by_kind = {(row["scheme"], row["particles"]): float(row["instructions_per_particle_and_step"]) for row in rows}
+    return table(["particles", *(f"`{scheme}`" for scheme in schemes)],
+                 [[number, *(f"{by_kind[scheme, number]:.0f}" for scheme in schemes)] for number in counts], range(len(schemes) + 1))
+
+
+def goals():
+    rows = rows_of("bar-large")
+    best = cheapest(rows, "displacement", 1e-4)
+    own = cheapest([row for row in rows if row["scheme"] == "tielen2017"], "displacement", 1e-4)
+    fine = cheapest(rows, "displacement", 1e-8)
+    milliseconds = f", {1e3 * float(fine['seconds']):.2g} ms" if fine["seconds"] else ""
+    return [f"- Large bar, displacement to 1e-4: {setting(best)}, {count(int(best['instructions']))} instructions; "
+            f"`tielen2017` needs {ratio(int(own['instructions']) / int(best['instructions']))} times as many.",
+            f"- Large bar, displacement to 1e-8: {setting(fine)}, {count(int(fine['instructions']))} instructions{milliseconds}; "
+            f"its error is {short(float(fine['displacement_relative_l2']))}."]
+
+
+PARTS = {**{name: lambda name=name: time_to_accuracy(name) for name in NAMES}, "steps": step_cost, "scaling": scaling, "goals": goals}
+PART = re.compile(r"<!-- generated by docs/make_study\.py: (\S+) -->\n(.*?)<!-- end of \1 -->", re.DOTALL)
+
+
+def renewed(text):
+    def renew(match):
+        name = match.group(1)
+        lines = "\n".join(PARTS[name]())
+        return f"<!-- generated by docs/make_study.py: {name} -->\n{lines}\n<!-- end of {name} -->"
+
+    return PART.sub(renew, text)
+
+
+def stale_points(tool, same_compiler):
+    """Complaints about points of the subset that give other numbers now."""
+    def look(task):
+        name, point, folder = task
+        known = next((row for row in rows_of(name) if row["point"] == point), None)
+        if known is None:
+            return [f"docs/studies/{name}.csv has no point {point}"]
+        run(tool, "--study", STUDIES / f"{name}.toml", "--output", folder, "--point", point, *([] if same_compiler else ["--no-instructions"]))
+        record = json.loads((pathlib.Path(folder) / "points" / f"{point}.json").read_text())
+        complaints = []
+        for field in FIELDS:
+            error = record["errors"][field]["relative_l2"]
+            if error != float(known[f"{field}_relative_l2"]):
+                complaints.append(f"{name}, {point}: the error in {field} is now {error}, not {known[f'{field}_relative_l2']}")
+        if same_compiler:
+            now = record["instructions"]["total"]
+            change = now / int(known["instructions"]) - 1
+            if abs(change) > TOLERANCE:
+                complaints.append(f"{name}, {point}: {now} instructions, {100 * change:+.2f} % of what docs/studies says")
+        return complaints
+
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        tasks = [(name, point, f"{folder}/{name}") for name, points in SUBSET.items() for point in points]
+        return [complaint for complaints in pool.map(look, tasks) for complaint in complaints]
+
+
+def check(tool):
+    complaints = []
+    text = PAGE.read_text()
+    if renewed(text) != text:
+        complaints.append("docs/accuracy-cost.md does not say what docs/studies/*.csv say")
+    complaints += [f"make_study: the part {name} stands in no file" for name in PARTS if f"make_study.py: {name} " not in text]
+    known = (STUDIES / "compiler.txt").read_text().strip()
+    here = compiler(tool)
+    if known != here:
+        print(f"instructions are passed over: they are of {known}, here is {here}")
+    complaints += stale_points(tool, known == here)
+    return complaints
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of hompm-study")
+    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build/study", help="where the studies are run")
+    parser.add_argument("--repeats", type=int, default=5, help="wall-clock times per point")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail when the page is stale")
+    arguments = parser.parse_args()
+    tool = arguments.tool.resolve()
+    if arguments.check:
+        complaints = check(tool)
+        for complaint in complaints:
+            print(complaint, file=sys.stderr)
+        if complaints:
+            print("docs/make_study.py writes docs/accuracy-cost.md anew, in about ten minutes", file=sys.stderr)
+        return 1 if complaints else 0
+    for name in [*NAMES, "scaling"]:
+        make_study(tool, name, arguments.work, arguments.repeats)
+        print(f"docs/studies/{name}.csv: written anew")
+    (STUDIES / "compiler.txt").write_text(compiler(tool) + "\n")
+    PAGE.write_text(renewed(PAGE.read_text()))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
