@@ -115,7 +115,7 @@ TEST_CASE("a damaged record is run anew, a current one is not") {
   CHECK(fs::last_write_time(kept) == before);
 }
 
-TEST_CASE("times are taken once per round and kept; tables and pictures are made of them") {
+TEST_CASE("times are taken once per round and kept, and tables and pictures are made of them") {
   const TemporaryFolder folder;
   const std::string command =
       tool +

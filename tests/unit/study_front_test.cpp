@@ -136,7 +136,7 @@ TEST_CASE("an answer names the cheapest setting and what the others need", "[stu
   CHECK(contains(study::answer({}, Field::stress, Cost::instructions, 1e-5), "nothing was measured"));
 }
 
-TEST_CASE("an answer by seconds needs times; with them others tell milliseconds", "[study]") {
+TEST_CASE("an answer by seconds needs times, and with them others tell milliseconds", "[study]") {
   auto outcomes = three_schemes();
   CHECK(contains(study::answer(outcomes, Field::stress, Cost::seconds, 1e-2), "nothing was measured"));
   outcomes[0].seconds = {0.002, 0.0009, 0.001};

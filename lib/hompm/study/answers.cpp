@@ -82,7 +82,7 @@ std::string setting_text(const Outcome& outcome) {
   for (const auto& [key, value] : outcome.point.settings) {
     const std::string name = short_key(key);
     if (name == "scheme" || name == "degree" || name == "cells" || name == "particles_per_cell") continue;
-    text += ", " + name + " " + value;
+    text.append(", ").append(name).append(" ").append(value);
   }
   return text;
 }
@@ -92,7 +92,7 @@ std::string command_text(const Study& study, const Outcome& outcome) {
   text += study.scene_file.empty() ? "--case " + study.case_name : "--scene " + study.scene_file;
   if (!study.variant.empty()) text += " --variant " + study.variant;
   for (const auto* list : {&study.settings, &outcome.point.settings})
-    for (const auto& [key, value] : *list) text += " --set " + key + "=" + value;
+    for (const auto& [key, value] : *list) text.append(" --set ").append(key).append("=").append(value);
   return text;
 }
 

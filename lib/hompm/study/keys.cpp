@@ -27,7 +27,7 @@ std::string full_key(const std::string& said, const std::string& where) {
   // Which effects and parameters there are depends on the scene; its reader tells.
   if (said == "scheme") return prefix + "name";
   if (said.starts_with("effect.") || said.starts_with("effect[")) return said;
-  const std::string key = with_underscores(said);
+  std::string key = with_underscores(said);
   if (is_key(key)) return key;
   if (is_key(prefix + key)) return prefix + key;
   std::vector<std::string> candidates{"scheme"};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 
 #include <hompm/error.hpp>
@@ -62,9 +63,12 @@ void run_and_judge(const Scene& scene, const Check& check, Measured& measured) {
 
 Scene measured_scene(const Study& study, const Point& point) {
   Scene scene = scene_of(study, point);
-  // States of a large body cost more to count from than they tell.
-  const bool large = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell > 20000;
-  scene.output = {.snapshots = large ? 1 : 32, .history = 1};
+  // Many states of a small body, whose step is the dearer the more cells its end has reached; of a very large
+  // one, where a state costs more than it tells, only start and end.
+  const std::int64_t particles = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell;
+  const int moments =
+      particles > 20000 ? 1 : static_cast<int>(std::clamp<std::int64_t>(8192 / particles, 32, 256));
+  scene.output = {.snapshots = moments, .history = 1};
   return scene;
 }
 

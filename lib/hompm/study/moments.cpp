@@ -27,7 +27,7 @@ constexpr std::array<Field, 6> fields{{{&Snapshot::displacement, &Particles::dis
                                        {&Snapshot::stress, &Particles::stress}}};
 
 struct Closer {
-  void operator()(std::FILE* file) const { std::fclose(file); }
+  void operator()(std::FILE* file) const { std::fclose(file); }  // NOLINT: the owner
 };
 using File = std::unique_ptr<std::FILE, Closer>;
 
