@@ -9,7 +9,7 @@
 
 namespace hompm::cli {
 
-/// Whether valgrind can be run here.
+/// Whether valgrind is there and can run this program; not when it is built with the address sanitizer.
 bool has_callgrind();
 
 /// Path of the running program.

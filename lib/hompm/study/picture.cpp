@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <initializer_list>
 #include <limits>
+#include <string_view>
 
 #include <hompm/number.hpp>
 #include <hompm/study/picture.hpp>
@@ -64,6 +66,12 @@ Ranges ranges_of(const std::vector<Outcome>& outcomes, Cost cost) {
           power_of_ten(decade_of(ranges.least_error)), power_of_ten(decade_of(ranges.most_error) + 1)};
 }
 
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
+
 std::string block(const std::string& name, const std::vector<Candidate>& rows) {
   std::string text = "$" + name + " << EOD\n";
   for (const auto& [cost, error] : rows) text += to_text(cost) + " " + to_text(error) + "\n";
@@ -72,6 +80,7 @@ std::string block(const std::string& name, const std::vector<Candidate>& rows) {
 
 std::vector<Candidate> picked(const Choice& choice, const std::vector<std::size_t>& which) {
   std::vector<Candidate> rows;
+  rows.reserve(which.size());
   for (const std::size_t i : which) rows.push_back(choice.candidates[i]);
   return rows;
 }
@@ -105,17 +114,20 @@ std::string panel(const std::vector<Outcome>& outcomes, Field field, Cost cost, 
     const std::string id = std::to_string(number++);
     const Choice part = of_scheme(all, scheme);
     const auto failed = failures(outcomes, scheme, cost, ranges);
-    const std::string ink = std::string(" linecolor \"") + colour + "\"";
-    data += block("dots" + id, part.candidates) +
-            block("front" + id, picked(part, pareto_front(part.candidates))) + block("failed" + id, failed);
+    const std::string ink = joined({" linecolor \"", colour, "\""});
+    data += block("dots" + id, part.candidates);
+    data += block("front" + id, picked(part, pareto_front(part.candidates)));
+    data += block("failed" + id, failed);
     if (!part.candidates.empty()) {
-      curves.push_back("$dots" + id + " using 1:2 with points pointtype 7 pointsize 0.25" + ink + " notitle");
-      curves.push_back("$front" + id + " using 1:2 with linespoints linewidth 2 pointsize 0.7 pointtype " +
-                       shape + ink + " title \"" + scheme + "\"");
+      curves.push_back(
+          joined({"$dots", id, " using 1:2 with points pointtype 7 pointsize 0.25", ink, " notitle"}));
+      curves.push_back(
+          joined({"$front", id, " using 1:2 with linespoints linewidth 2 pointsize 0.7 pointtype ", shape,
+                  ink, " title \"", scheme, "\""}));
     }
     if (!failed.empty())
-      curves.push_back("$failed" + id + " using 1:2 with points pointtype 2 pointsize 0.8 linewidth 2" + ink +
-                       " notitle");
+      curves.push_back(joined(
+          {"$failed", id, " using 1:2 with points pointtype 2 pointsize 0.8 linewidth 2", ink, " notitle"}));
   }
   if (const double own = floor_of(outcomes, field); own > ranges.least_error)
     curves.push_back(
@@ -145,12 +157,15 @@ std::string picture_script(const std::vector<Outcome>& outcomes, Cost cost, cons
   text += "set xrange [" + to_text(ranges.least_cost) + ":" + to_text(ranges.most_cost) + "]\nset yrange [" +
           to_text(ranges.least_error) + ":" + to_text(ranges.most_error) + "]\nset xlabel \"" +
           to_string(cost) + "\"\n";
+  std::string plain = title;  // in quotes
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c == '"' || c == '\\'; }, ' ');
   for (const auto& [terminal, ending] :
        {std::pair{"svg size 1380,500 font \"Helvetica,15\" background \"#FFFFFF\"", "svg"},
         std::pair{"pngcairo size 1380,500 font \"Helvetica,11\" background \"#FFFFFF\"", "png"}})
-    text += std::string("set terminal ") + terminal + "\nset output \"" + name + "." + ending +
-            "\"\nset multiplot layout 1,3 title \"" + title + "\" font \",17\" offset 0,-0.2\n" + panels +
-            "unset multiplot\nset output\n";
+    text += joined({"set terminal ", terminal, "\nset output \"", name, ".", ending,
+                    "\"\nset multiplot layout 1,3 title \"", plain,
+                    "\" font \",17\" noenhanced offset 0,-0.2\n", panels, "unset multiplot\nset output\n"});
   return text;
 }
 
