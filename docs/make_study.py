@@ -98,7 +98,8 @@ def count(value):
 
 
 def ratio(value):
-    return f"{value:.1f}" if value < 10 else f"{float(f'{value:.2g}'):.0f}"
+    """Two digits, never as a power of ten."""
+    return f"{value:.2g}" if value < 1 else f"{value:.1f}" if value < 10 else f"{float(f'{value:.2g}'):.0f}"
 
 
 def time_to_accuracy(name):
@@ -115,7 +116,7 @@ def time_to_accuracy(name):
             for scheme in schemes:
                 own = cheapest([row for row in rows if row["scheme"] == scheme], field, error)
                 words.append(ratio(int(own["instructions"]) / int(best["instructions"])) if own else "–")
-            milliseconds = f"{1e3 * float(best['seconds']):.2g}" if best["seconds"] else ""
+            milliseconds = ratio(1e3 * float(best["seconds"])) if best["seconds"] else ""
             table_rows.append([f"{error:.0e}".replace("e-0", "e-"), setting(best), count(int(best["instructions"])), milliseconds, *words])
         header = ["error", "cheapest", "instructions", "ms", *(f"`{scheme}`" for scheme in schemes)]
         lines += ["", f"Relative L2 error of the {field}; the last columns: instructions over those of the cheapest.", "",
@@ -150,7 +151,7 @@ def goals():
     best = cheapest(rows, "displacement", 1e-4)
     own = cheapest([row for row in rows if row["scheme"] == "tielen2017"], "displacement", 1e-4)
     fine = cheapest(rows, "displacement", 1e-8)
-    milliseconds = f", {1e3 * float(fine['seconds']):.2g} ms" if fine["seconds"] else ""
+    milliseconds = f", {ratio(1e3 * float(fine['seconds']))} ms" if fine["seconds"] else ""
     return [f"- Large bar, displacement to 1e-4: {setting(best)}, {count(int(best['instructions']))} instructions; "
             f"`tielen2017` needs {ratio(int(own['instructions']) / int(best['instructions']))} times as many.",
             f"- Large bar, displacement to 1e-8: {setting(fine)}, {count(int(fine['instructions']))} instructions{milliseconds}; "
