@@ -96,7 +96,7 @@ TEST_CASE("the usual sweeps hold every scheme and can be read", "[study]") {
   CHECK(schemes.size() == hompm::scheme_table().size());
 }
 
-TEST_CASE("--vary takes names with usual values, or one name with values", "[study]") {
+TEST_CASE("the option vary takes names with usual values, or one name with values", "[study]") {
   const auto usual = study::read_axes("scheme,particles-per-cell");
   REQUIRE(usual.size() == 2);
   CHECK(usual[0].key == "scheme.name");
