@@ -68,7 +68,7 @@ TEST_CASE("all stands for what the table of schemes has", "[study]") {
   std::size_t expected = 0;
   std::set<std::string> all;
   for (const hompm::Scheme& scheme : hompm::scheme_table()) {
-    const bool second_order = scheme.integrator == hompm::TimeIntegrator::leapfrog;
+    const bool second_order = scheme.choices.time_integrator == hompm::TimeIntegrator::leapfrog;
     expected +=
         static_cast<std::size_t>(scheme.highest_degree - scheme.lowest_degree + 1) * (second_order ? 2 : 1);
     all.insert(scheme.name);

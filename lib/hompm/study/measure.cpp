@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include <hompm/error.hpp>
+#include <hompm/plan/state_fields.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/run.hpp>
@@ -11,22 +12,18 @@ namespace hompm::study {
 namespace {
 
 std::int64_t bytes_of(const State& state) {
-  std::size_t bytes = state.basis.first.size() * sizeof(std::int32_t);
-  const Particles& p = state.particles;
-  const GridFields& g = state.fields;
-  for (const auto* array :
-       {&p.reference_position, &p.displacement, &p.position, &p.velocity, &p.mass, &p.reference_density,
-        &p.reference_volume, &p.volume, &p.stretch, &p.stress, &state.basis.values, &state.basis.gradients,
-        &g.mass, &g.internal_force, &g.force, &g.acceleration, &g.momentum, &g.velocity})
-    bytes += array->size() * sizeof(double);
+  std::size_t bytes = 0;
+  visit_fields(state, [&](std::string_view, Site, auto values) { bytes += values.size_bytes(); });
   return static_cast<std::int64_t>(bytes);
 }
 
 Work work_of(const Scene& scene, const TimeStepping& stepping, const State& state) {
-  const Scheme scheme = choose_scheme(scene.scheme);
-  const auto forces = stepping.steps * static_cast<std::int64_t>(splitting(scheme.integrator).drifts.size());
-  const int solves = (scheme.acceleration_mass == MassForm::consistent ? 1 : 0) +
-                     (scheme.velocity_mass == MassForm::consistent ? 1 : 0) + (scheme.relaxes ? 1 : 0);
+  const SchemeChoices& choices = scene.scheme.choices;
+  const auto forces =
+      stepping.steps * static_cast<std::int64_t>(splitting(choices.time_integrator).drifts.size());
+  const int solves = (choices.acceleration_mass == MassForm::consistent ? 1 : 0) +
+                     (choices.velocity_projection != VelocityProjection::lumped ? 1 : 0) +
+                     (scene.scheme.relaxation_rate > 0.0 ? 1 : 0);
   return {.particles = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell,
           .steps = stepping.steps,
           .force_evaluations = forces,

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/study/study.hpp>
@@ -49,8 +50,9 @@ std::vector<std::string> all_values(const std::string& key, const Scheme* row) {
     for (int degree = row->lowest_degree; degree <= row->highest_degree; ++degree)
       values.push_back(std::to_string(degree));
   if (key == "scheme.time_integrator") {
-    values.push_back(integrator_names()[static_cast<std::size_t>(row->integrator)]);
-    if (row->integrator == TimeIntegrator::leapfrog) values.emplace_back("blanes-moan");
+    const TimeIntegrator own = row->choices.time_integrator;
+    values.push_back(detail::find_key(key)->rule.words.at(static_cast<std::size_t>(own)));
+    if (own == TimeIntegrator::leapfrog) values.emplace_back("blanes-moan");
   }
   return values;
 }

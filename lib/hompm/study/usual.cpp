@@ -27,7 +27,8 @@ std::vector<Sweep> usual_sweeps() {
   Values first_order;
   Values higher_order;
   for (const Scheme& scheme : scheme_table())
-    (scheme.integrator == TimeIntegrator::euler_cromer ? first_order : higher_order).push_back(scheme.name);
+    (scheme.choices.time_integrator == TimeIntegrator::euler_cromer ? first_order : higher_order)
+        .push_back(scheme.name);
   const Axis particles{"scheme.particles_per_cell", {"2", "4"}};
   std::vector<Sweep> sweeps;
   if (!first_order.empty())

@@ -29,7 +29,7 @@ std::optional<ReferenceFields> ForeignTruth::at(const std::string& whose, const 
     reason = "there are particles outside of the body, 0 <= X <= " + to_text(scene_->body.length) + " m";
   } else {
     auto exact = sound_fields(*reference_, block.time, block.X, reason);
-    own_error_ = std::max(own_error_, reference_->estimated_error());
+    own_error_ = std::max(own_error_, reference_->estimated_error().displacement);
     if (exact) return exact;
   }
   note(whose + " is not held against the exact solution at time " + to_text(block.time) + ": " + reason);

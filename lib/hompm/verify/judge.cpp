@@ -9,7 +9,7 @@ std::optional<ReferenceFields> detail::sound_fields(const Reference& reference, 
   try {
     ReferenceFields fields = reference.at(time, X);
     // Past a shock the reference no longer converges, and says so by its own error.
-    const double own = reference.estimated_error();
+    const double own = reference.estimated_error().displacement;
     if (own <= 1e-3) return fields;
     reason = "the reference solution (" + reference.description + ") is only good to " + to_text(own) +
              " here: the motion has steepened to a shock";
