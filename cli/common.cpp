@@ -110,6 +110,8 @@ int run_tool(const std::string& tool, const std::function<int()>& body) {
     return fail(error.what(), invalid_run);
   } catch (const FileError& error) {
     return fail(error.what(), bad_file);
+  } catch (const ArithmeticError& error) {
+    return fail(error.what(), arithmetic);
   } catch (const std::exception& error) {
     return fail(std::string("internal error: ") + error.what(), internal);
   }

@@ -19,6 +19,7 @@ enum ExitCode {
   different = 3,    ///< a comparison found a difference
   invalid_run = 4,  ///< the run stopped being valid
   bad_file = 5,     ///< something could not be read or written
+  arithmetic = 6,   ///< this build or process does not compute as IEEE 754 says
 };
 
 /// A command line that makes no sense; `what()` says why in one line.

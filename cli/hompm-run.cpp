@@ -79,7 +79,7 @@ std::string usage_text(const po::options_description& options) {
           "Runs a scene by the material point method and says how good the result is.\n\n"
        << options
        << "\nExit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became invalid,\n"
-          "5 cannot read or write.\n";
+          "5 cannot read or write, 6 this build or process does not compute as IEEE 754 says.\n";
   return text.str();
 }
 

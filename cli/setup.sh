@@ -5,7 +5,9 @@ set -eu
 
 packages="g++ cmake ninja-build libboost-dev libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev"
 if [ "${1:-}" = --tests ]; then
-  packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy octave clang clang-format clang-tidy lcov valgrind gnuplot-nox snakemake"
+  packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy octave clang clang-format clang-tidy llvm lcov valgrind gnuplot-nox snakemake"
+  # other architectures, for the reproducibility tests
+  packages="$packages g++-aarch64-linux-gnu g++-s390x-linux-gnu qemu-user"
 fi
 
 if ! command -v dpkg-query >/dev/null 2>&1; then

@@ -55,6 +55,12 @@ class InvalidRun : public Error {
   std::int64_t particle;
 };
 
+/// A build or process that does not compute as IEEE 754 says with rounding to nearest.
+class ArithmeticError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// A file or folder that cannot be read or written; `what()` names the path and the system's reason.
 class FileError : public Error {
  public:

@@ -49,8 +49,8 @@ struct RunObserver {
 
 /// Runs a scene with the given stepping. The start is reported first, then `scene.output.snapshots` snapshots
 /// and `scene.output.history` rows evenly over the steps. Throws `SceneError` when scene and scheme do not go
-/// together, and `InvalidRun` when the run becomes invalid: what was reported before is valid. Throws `Error`
-/// on a machine or build whose arithmetic is not IEEE 754 (numerics/floating_point.hpp).
+/// together, and `InvalidRun` when the run becomes invalid: what was reported before is valid. Throws
+/// `ArithmeticError` on a machine or build whose arithmetic is not IEEE 754 (numerics/floating_point.hpp).
 ///
 /// With `from`, a point of an earlier run of the same scene, the run goes on from there: what is reported and
 /// returned is the rest of that run, bit for bit.

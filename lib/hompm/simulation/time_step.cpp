@@ -2,6 +2,7 @@
 #include <string>
 
 #include <hompm/number.hpp>
+#include <hompm/numerics/floating_point.hpp>
 #include <hompm/simulation/critical_step.hpp>
 #include <hompm/simulation/time_step.hpp>
 
@@ -24,6 +25,7 @@ double asked_step(const Scene& scene, double critical) {
 }  // namespace
 
 TimeStepping time_stepping(const Scene& scene) {
+  numerics::check_floating_point();  // the search for the critical step already relies on it
   const std::string key = asked_by(scene.scheme);
   const auto said = scene.origins.find(key);
   const Origin origin = said != scene.origins.end() ? said->second : Origin{key};

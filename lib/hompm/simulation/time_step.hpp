@@ -21,7 +21,7 @@ struct TimeStepping {
 /// The step that `scene.scheme` asks for by `time_step`, `courant` (c Δt/h) or `step_fraction` (of the
 /// critical step), shortened where needed so that a whole number of steps ends at `end_time`. Throws
 /// `SceneError` for a step above the critical one, unless `allow_unstable` is set, naming the limit; and for
-/// more than 10¹⁰ steps.
+/// more than 10¹⁰ steps. Throws `ArithmeticError` as `run` does.
 TimeStepping time_stepping(const Scene& scene);
 
 }  // namespace hompm
