@@ -11,7 +11,7 @@ cmake --build --preset coverage
 find build/coverage -name '*.gcda' -delete
 rm -f build/coverage/missed.txt
 # The others run the same code, only longer.
-ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|docs|cost"
+ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|docs|cost|reproducibility"
 
 cd build/coverage
 lcov --quiet --capture --directory . --output-file all.info 2>/dev/null
