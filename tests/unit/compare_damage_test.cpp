@@ -56,6 +56,8 @@ TEST_CASE("each damage has its own message and makes the folders different", "[c
        [](Lines& lines) { lines.insert(lines.begin() + 6, "0,5" + lines[5].substr(3)); }},
       {"extra last row", " line 17: extra row: time 0.25, particle 5",
        [](Lines& lines) { lines.push_back("0.25,5" + lines[15].substr(6)); }},
+      {"old row at the end", " line 17: row order differs: time 0.25, particle 1 comes too late",
+       [](Lines& lines) { lines.push_back(lines[12]); }},
       {"repeated row", " line 8: the row of time 0.1, particle 0 is there twice",
        [](Lines& lines) { lines.insert(lines.begin() + 7, lines[6]); }},
       {"only the header", " line 2: the row of time 0, particle 0 is missing",

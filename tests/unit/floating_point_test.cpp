@@ -1,5 +1,8 @@
 #include <cfenv>
 #include <string>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/floating_point.hpp>
@@ -19,3 +22,13 @@ TEST_CASE("this build and process compute as IEEE 754 says, and a changed roundi
     CHECK(message == "the rounding mode is not to nearest");
   }
 }
+
+#if defined(__SSE2__)
+TEST_CASE("a process that flushes subnormal numbers to zero is refused") {
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | _MM_FLUSH_ZERO_ON);
+  const std::string message = message_of<hompm::ArithmeticError>(check_floating_point);
+  _mm_setcsr(before);
+  CHECK(message == "subnormal numbers are flushed to zero here; build without -ffast-math");
+}
+#endif

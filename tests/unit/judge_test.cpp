@@ -63,3 +63,13 @@ TEST_CASE("what a plan cannot be made of is refused") {
   CHECK_THROWS_WITH(built_in("bar", "large", {{"scheme.relaxation_rate", "1"}}),
                     contains("`scheme.stress_update` must be \"from-positions\""));
 }
+
+TEST_CASE("a reference that cannot go as far as the run is the reason not to judge") {
+  const auto scene = built_in("bar", "large", {{"initial.velocity.amplitude", "5"}});
+  hompm::RunResult result;
+  result.final.time = 20.0;  // the reference turns inside out before
+  result.final.reference_position = {1.0, 2.0};
+  std::string reason;
+  CHECK_FALSE(hompm::judge(scene, result, reason).has_value());
+  CHECK_THAT(reason, contains("no smooth"));
+}

@@ -149,6 +149,10 @@ TEST_CASE("a step of traction sends d'Alembert's wave", "[reference]") {
   }
 }
 
+TEST_CASE("a column without a solution of its own has the method of lines", "[reference]") {
+  CHECK(reference(column("neo-hookean")).description.starts_with("method of lines"));
+}
+
 TEST_CASE("a free body falls as one", "[reference]") {
   Scene scene = column("neo-hookean");
   scene.ends.left = End::free;

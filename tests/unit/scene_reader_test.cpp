@@ -508,3 +508,12 @@ TEST_CASE("Every bad scene is refused for exactly the reasons it names") {
   }
   CHECK(files >= 30);
 }
+
+TEST_CASE("an effect outside the catalogue is written without units") {
+  Scene scene = read("");
+  EffectSpec effect;
+  effect.type = "wind";
+  effect.parameters["speed"] = 3.0;
+  scene.effects.push_back(effect);
+  CHECK_THAT(scene_text(scene), hompm::test::contains("[[effect]]\ntype = \"wind\"\nspeed = 3.0\n"));
+}

@@ -151,6 +151,11 @@ TEST_CASE("a column hanging from the right end is the mirror image of one standi
     CHECK(std::abs(a.displacement[i] + b.displacement[b.size() - 1 - i]) <= 1e-12);  // rounding of 2000 steps
 }
 
+TEST_CASE("the state can be looked at without leave to change it") {
+  const Simulation simulation(free_body(), 1e-3);
+  CHECK(simulation.state().particles.size() == 64);
+}
+
 TEST_CASE("two runs of one scene have the same bits") {
   const auto& scheme = GENERATE(from_range(hompm::scheme_table()));
   const auto scene = built_in("column", "large",
