@@ -1,0 +1,68 @@
+// What an effect adds in one step, function by function and particle by particle.
+#include <cmath>
+
+#include <hompm/simulation/simulation.hpp>
+
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+using hompm::Phase;
+using hompm::Simulation;
+using hompm::test::built_in;
+
+namespace {
+
+/// A column that has one effect, with numbers of its own at every grid function.
+Simulation column_with(const hompm::EffectSpec& effect) {
+  hompm::Scene scene = built_in("column", "small", {{"scheme.cells", "4"}});
+  scene.effects = {effect};
+  Simulation simulation(scene, 1e-4);
+  auto& g = simulation.state().fields;
+  for (std::size_t i = 0; i < g.force.size(); ++i) {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    g.momentum[i] = 1.0 + static_cast<double>(i);
+    g.force[i] = 2.0 * static_cast<double>(i) - 3.0;
+    g.velocity[i] = i == 2 ? 0.0 : sign;
+  }
+  return simulation;
+}
+
+}  // namespace
+
+TEST_CASE("the potential of gravity is that of every particle's own mass and displacement") {
+  Simulation simulation = column_with({"gravity", {{"acceleration", -4.0}}, {}});
+  auto& particles = simulation.state().particles;
+  double moment = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.mass[p] = 1.0 + static_cast<double>(p);
+    particles.displacement[p] = 0.5 * static_cast<double>(p * p);
+    moment += particles.mass[p] * particles.displacement[p];
+  }
+  CHECK(simulation.history(0.0).gravity == 4.0 * moment);  // all numbers are small multiples of 1/2: exact
+}
+
+TEST_CASE("a damping adds its force at its own grid function, and takes that force times velocity") {
+  const bool local = GENERATE(true, false);
+  Simulation simulation = column_with(local ? hompm::EffectSpec{"local-damping", {{"coefficient", 0.5}}, {}}
+                                            : hompm::EffectSpec{"mass-damping", {{"rate", 0.5}}, {}});
+  auto& state = simulation.state();
+  const auto before = state.fields;
+  const double dissipated = state.balance.dissipated;
+  state.kick = 2.0;
+  state.drift = 4.0;
+  const double impulse = state.balance.impulse;
+  simulation.plan().run(Phase::damping_force, state);
+  double sum = 0.0;
+  double power = 0.0;
+  for (std::size_t i = 0; i < before.force.size(); ++i) {
+    const double v = before.velocity[i];
+    const double direction = v == 0.0 ? 0.0 : std::copysign(1.0, v);
+    const double force = local ? -0.5 * direction * std::abs(before.force[i]) : -0.5 * before.momentum[i];
+    CHECK(state.fields.force[i] == before.force[i] + force);
+    sum += force;
+    power += force * v;
+  }
+  CHECK(state.balance.impulse == impulse + 2.0 * sum);
+  simulation.plan().run(Phase::work, state);
+  CHECK(state.balance.dissipated == dissipated - 4.0 * power);
+}
