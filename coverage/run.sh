@@ -14,7 +14,14 @@ LLVM_PROFILE_FILE="$PWD/build/coverage/profiles/%4m.profraw" \
 
 cd build/coverage
 llvm-profdata merge -sparse profiles/*.profraw -o tests.profdata
-llvm-cov show -format=html -show-branches=count -instr-profile tests.profdata -output-dir report \
-  tests/test_unit -object tests/test_cli -object bin/hompm-run -object bin/hompm-diff "$(cd ../.. && pwd)/lib/hompm"
-../../coverage/measure.py tests.profdata tests/test_unit tests/test_cli bin/hompm-run bin/hompm-diff --missed missed.txt
-echo "coverage: report in build/coverage/report/index.html, what is not reached in build/coverage/missed.txt"
+programs="-object tests/test_cli -object bin/hompm-run -object bin/hompm-diff -object bin/hompm-study"
+library="$(cd ../.. && pwd)/lib/hompm"
+# shellcheck disable=SC2086
+llvm-cov show -format=html -show-branches=count -instr-profile tests.profdata -output-dir branches \
+  tests/test_unit $programs "$library"
+# shellcheck disable=SC2086
+llvm-cov export -format=lcov -instr-profile tests.profdata tests/test_unit $programs "$library" >lib.info
+genhtml --quiet --legend --title "hompm: lib/" --prefix "$library" --output-directory report lib.info
+../../coverage/measure.py tests.profdata tests/test_unit tests/test_cli bin/hompm-run bin/hompm-diff bin/hompm-study --missed missed.txt
+echo "coverage: report in build/coverage/report/index.html, branches in build/coverage/branches/index.html,"
+echo "          what is not reached in build/coverage/missed.txt"

@@ -14,7 +14,7 @@ using hompm::test::free_body;
 using hompm::test::message_of;
 
 TEST_CASE("a singular mass matrix is told by its grid function") {
-  hompm::State state = hompm::initial_state(free_body(), false);
+  hompm::State state = hompm::initial_state(free_body());
   state.step = 7;
   state.time = 0.5;
   const auto message = message_of<hompm::InvalidRun>([&] { hompm::detail::throw_singular_mass(state, 3); });
