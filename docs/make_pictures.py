@@ -16,6 +16,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import make_tables  # noqa: E402
+from cut_span import cut_span as exact_cut_span  # noqa: E402
 
 PICTURES = make_tables.ROOT / "docs/pictures"
 # Okabe and Ito's colours, which everybody can tell apart; the shapes differ, too.
@@ -95,6 +96,32 @@ set multiplot layout 1,4 title "Settled column, 32 cells of 4 particles; dots: p
     return script + "unset multiplot\n"
 
 
+def cut_span(_tools):
+    """Critical step and condition of the mass against the fraction of the last span that is filled."""
+    colours = {2: "#0072B2", 3: "#CC79A7", 4: "#009E73"}
+    cuts = [10.0 ** (-k / 2) for k in range(25)]
+    script = START.format(size="920,480", name="cut-span")
+    for degree in colours:
+        rows = [[f"{cut:.3e}", *(f"{number:.3e}" for extended in (True, False) for number in exact_cut_span(degree, cut, extended))]
+                for cut in cuts]
+        script += block(f"p{degree}", rows)
+    script += """
+set logscale xy 10
+set xrange [1:1e-12] reverse
+set xtics (1, "10^{-3}" 1e-3, "10^{-6}" 1e-6, "10^{-9}" 1e-9, "10^{-12}" 1e-12)
+set format y "10^{%T}"
+set xlabel "filled fraction ε of the last span"
+set multiplot layout 1,2 title "Free end in a span: solid with the extension, dashed without" font ",17" offset 0,-0.2
+"""
+    panels = (("critical step c Δt/h", "[1e-12:10]", "left bottom"), ("condition number of the mass", "[1:1e20]", "right center"))
+    for column, (title, limits, place) in enumerate(panels, start=2):
+        script += f'set title "{title}" offset 0,-0.5\nset yrange {limits}\nset key {place} samplen 2 spacing 0.9\n'
+        curves = [f'$p{degree} using 1:{column + 2 * bare} with lines linewidth 2.5 dashtype {1 + bare} linecolor "{colour}" '
+                  + ("notitle" if bare else f'title "p = {degree}"') for degree, colour in colours.items() for bare in (0, 1)]
+        script += "plot " + ", \\\n     ".join(curves) + "\n"
+    return script + "unset multiplot\n"
+
+
 def comparing(tools):
     """What hompm-diff --picture draws, here of golden data of two schemes."""
     golden = make_tables.ROOT / "golden"
@@ -117,7 +144,7 @@ def main():
     stale = []
     with tempfile.TemporaryDirectory() as work:
         tools = make_tables.Tools(arguments.tool.resolve(), work)
-        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("comparing", comparing)):
+        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("comparing", comparing)):
             subprocess.run(["gnuplot"], input=draw(tools), text=True, check=True, cwd=work)
             new = (pathlib.Path(work) / f"{name}.svg").read_text()
             path = PICTURES / f"{name}.svg"
