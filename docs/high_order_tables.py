@@ -146,6 +146,17 @@ def ramped(tools):
         (f"Relative L2 error of the {field}:", functools.partial(error_of, field=field)) for field in ("displacement", "stress")])
 
 
+def flip(tools):
+    """Energy residual by FLIP and PIC against the step: what a drift that is not symmetric in time feeds."""
+    fractions = ["0.6", "0.5", "0.4", "0.3", "0.25"]
+    rows = []
+    for transfer in ("flip", "pic"):
+        reports = tools.reports([[*COLUMN, *HIGH_ORDER, "--degree", 2, "--cells", 128, "--end-time", 20, "--step-fraction", fraction,
+                                  "--set", f"scheme.transfer={transfer}"] for fraction in fractions])
+        rows.append([f"`{transfer}`", *(short(report["energy"]["largest_residual"]) for report in reports)])
+    return table(["step fraction", *fractions], rows, range(1, 6))
+
+
 def long_runs(tools):
     """100 s of the undamped column: balances. The longest take minutes."""
     degrees, rows = (2, 3, 4), []
@@ -190,4 +201,4 @@ def cut_spans(_tools):
 
 PARTS = {"ladder": ladder, "settled": settled, "squeezed": lambda tools: settled(tools, 2452.5, 0.2, (2, 3)),
          "ramped": ramped, "conservation": conservation, "cut-span": cut_spans}
-SLOW_PARTS = {"costs": costs, "long-runs": long_runs}
+SLOW_PARTS = {"costs": costs, "flip": flip, "long-runs": long_runs}
