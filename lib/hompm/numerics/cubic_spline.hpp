@@ -62,6 +62,8 @@ class CubicSplineSites {
     const double sixth = width_[k] * (1.0 / 6.0);
     return last ? secant + sixth * (left + 2.0 * right) : secant - sixth * (2.0 * left + right);
   }
+  /// The same at every site.
+  void slopes(const Fit& spline, std::span<double> result) const;
 
  private:
   std::size_t count_;

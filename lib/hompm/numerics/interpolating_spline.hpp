@@ -103,6 +103,10 @@ class InterpolatingSplineSites {
     }
     return D * sum;
   }
+  /// The same at every site.
+  void slopes(const Fit& spline, std::span<double> result) const {
+    for (std::size_t i = 0; i < count_; ++i) result[i] = slope(i, spline);
+  }
 
  private:
   static constexpr std::size_t reach = D - 1;  ///< of the matrix to either side of its diagonal

@@ -54,17 +54,18 @@ SplineSpace::SplineSpace(int degree, int cells, double origin, double cell_width
       origin_(origin),
       cell_width_(cell_width),
       inverse_width_(1.0 / cell_width),
-      piece_size_(static_cast<std::size_t>(2 * (degree + 1) * (degree + 1))) {
+      shared_(std::max(0, cells - 2 * (degree - 1) - 1)) {
   if (degree < 1 || degree > max_degree)
     throw Error("a spline space has degree 1 … 5, not " + std::to_string(degree));
   if (cells < 1) throw Error("a spline space has at least one cell, not " + std::to_string(cells));
   if (!(cell_width > 0.0) || !std::isfinite(cell_width)) throw Error("the cell width must be above zero");
 
-  const int distinct = std::min(cells, 2 * (degree - 1) + 1);
-  pieces_.resize(static_cast<std::size_t>(distinct) * piece_size_);
+  const int distinct = cells - shared_;
+  const auto piece_size = static_cast<std::size_t>(2 * (degree + 1) * (degree + 1));
+  pieces_.resize(static_cast<std::size_t>(distinct) * piece_size);
   for (int piece = 0; piece < distinct; ++piece) {
     const int cell = piece < degree ? piece : cells - distinct + piece;
-    double* coefficient = &pieces_[static_cast<std::size_t>(piece) * piece_size_];
+    double* coefficient = &pieces_[static_cast<std::size_t>(piece) * piece_size];
     for (const int about : {cell, cell + 1}) {
       const auto functions = pieces_on_cell(degree, cells, cell, about);
       for (std::size_t power = 0; power < functions.size(); ++power)

@@ -1,6 +1,8 @@
 // B-splines on an open uniform knot vector: the function space of the background grid.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -44,18 +46,24 @@ class SplineSpace {
   /// Values and derivatives d/dx (1/m) of the `P + 1` functions that live on a cell; P must be the degree.
   template <int P>
   void evaluate(Location at, double* values, double* gradients) const {
+    constexpr std::size_t n = P + 1;
     const bool upper = at.s > 0.5;
-    const double* c = piece(at.cell) + (upper ? (P + 1) * (P + 1) : 0);
-    const double t = upper ? at.s - 1.0 : at.s;
-    for (int k = 0; k <= P; ++k) {
-      double value = c[P * (P + 1) + k];
-      double slope = 0.0;
-      for (int power = P - 1; power >= 0; --power) {
-        slope = slope * t + value;
-        value = value * t + c[power * (P + 1) + k];
+    const double t = at.s - (upper ? 1.0 : 0.0);
+    const double* c = pieces_.data() + (2 * piece_of_cell<P>(at.cell) + (upper ? 1 : 0)) * (n * n);
+    // Horner's rule, for all functions at a time.
+    std::array<double, n> value, slope;
+    for (std::size_t k = 0; k < n; ++k) {
+      slope[k] = c[P * n + k];
+      value[k] = slope[k] * t + c[(P - 1) * n + k];
+    }
+    for (std::size_t power = P - 1; power-- > 0;)
+      for (std::size_t k = 0; k < n; ++k) {
+        slope[k] = slope[k] * t + value[k];
+        value[k] = value[k] * t + c[power * n + k];
       }
-      values[k] = value;
-      gradients[k] = slope * inverse_width_;
+    for (std::size_t k = 0; k < n; ++k) {
+      values[k] = value[k];
+      gradients[k] = slope[k] * inverse_width_;
     }
   }
 
@@ -63,14 +71,10 @@ class SplineSpace {
   void evaluate(Location at, std::span<double> values, std::span<double> gradients) const;
 
  private:
-  [[nodiscard]] const double* piece(int cell) const {
-    return pieces_.data() + static_cast<std::size_t>(piece_of_cell(cell)) * piece_size_;
-  }
-  [[nodiscard]] int piece_of_cell(int cell) const {
-    const int inner = degree_ - 1;
-    if (cell < inner || cells_ <= 2 * inner) return cell;
-    const int from_end = cells_ - 1 - cell;
-    return from_end < inner ? 2 * inner - from_end : inner;
+  /// Cells share the piece `P − 1` but for those at the ends.
+  template <int P>
+  [[nodiscard]] std::size_t piece_of_cell(int cell) const {
+    return static_cast<std::size_t>(cell - std::clamp(cell - (P - 1), 0, shared_));
   }
 
   int degree_;
@@ -78,7 +82,7 @@ class SplineSpace {
   double origin_;
   double cell_width_;
   double inverse_width_;
-  std::size_t piece_size_;
+  int shared_;                  ///< cells that share a piece with the one before them
   std::vector<double> pieces_;  ///< [piece][lower or upper end][power][function]
 };
 

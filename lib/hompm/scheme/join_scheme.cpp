@@ -53,7 +53,7 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
     builder.add(Phase::geometry, "lumped mass", [](State& state) {
       std::fill(state.fields.mass.begin(), state.fields.mass.end(), 0.0);
       scatter<P>(state, state.basis.values, state.fields.mass,
-                 [&](std::size_t p) { return state.particles.mass[p]; });
+                 [mass = state.particles.mass.data()](std::size_t p) { return mass[p]; });
     });
   if (least_squares)
     builder.add(
@@ -98,7 +98,9 @@ void join_forces(PlanBuilder& builder, const Shared& splines) {
       std::fill(force.begin(), force.end(), 0.0);
       const Particles& particles = state.particles;
       scatter<P>(state, state.basis.gradients, force,
-                 [&](std::size_t p) { return particles.volume[p] * particles.stress[p]; });
+                 [volume = particles.volume.data(), stress = particles.stress.data()](std::size_t p) {
+                   return volume[p] * stress[p];
+                 });
     });
   }
   builder.add(Phase::internal_force, "out-of-balance force", [](State& state) {

@@ -11,23 +11,57 @@
 
 namespace hompm::detail {
 
+/// x = X + u and V = V0 λ with finite kinematics; nothing moves with infinitesimal ones.
+template <Kinematics kinematics>
+class Placement {
+ public:
+  explicit Placement(Particles& p)
+      : reference_position_(p.reference_position.data()),
+        reference_volume_(p.reference_volume.data()),
+        position_(p.position.data()),
+        volume_(p.volume.data()) {}
+
+  void operator()(std::size_t i, double displacement, double stretch) const {
+    if constexpr (kinematics == Kinematics::finite) {
+      position_[i] = reference_position_[i] + displacement;
+      volume_[i] = reference_volume_[i] * stretch;
+    }
+  }
+
+ private:
+  const double* reference_position_;
+  const double* reference_volume_;
+  double* position_;
+  double* volume_;
+};
+
 /// u += Δt Σ N_i v_i and dε = Δt Σ dN_i/dx v_i for every particle, then the stress by the increment of the
 /// law, and with finite kinematics λ ← λ (1 + dε), V = V0 λ, x = X + u, with infinitesimal λ ← λ + dε (Tielen
 /// et al. 2017, section 3; docs/method.md). Throws `InvalidRun` when a stretch is not above zero.
 template <int P, Kinematics kinematics, class Law>
 void move_by_increments(State& state, const Law& law) {
   Particles& p = state.particles;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double strain = state.drift * gather<P>(state, state.basis.gradients, state.fields.velocity, i);
-    p.displacement[i] += state.drift * gather<P>(state, state.basis.values, state.fields.velocity, i);
-    p.stress[i] += law.modulus(p.stress[i], p.stretch[i]) * strain;
+  const std::size_t count = p.size();
+  double* u = p.displacement.data();
+  double* stretch = p.stretch.data();
+  double* stress = p.stress.data();
+  const Placement<kinematics> place(p);
+  const double drift = state.drift;
+  const Gather<P> velocity(state, state.basis.values, state.fields.velocity);
+  const Gather<P> velocity_gradient(state, state.basis.gradients, state.fields.velocity);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double strain = drift * velocity_gradient(i);
+    const double moved = u[i] + drift * velocity(i);
+    const double before = stretch[i];
+    u[i] = moved;
+    stress[i] += law.modulus(stress[i], before) * strain;
     if constexpr (kinematics == Kinematics::finite) {
-      p.stretch[i] *= 1.0 + strain;
-      if (!(p.stretch[i] > 0.0)) throw_inverted(state, i, p.stretch[i]);
-      p.position[i] = p.reference_position[i] + p.displacement[i];
-      p.volume[i] = p.reference_volume[i] * p.stretch[i];
+      const double after = before * (1.0 + strain);
+      stretch[i] = after;
+      if (!(after > 0.0)) throw_inverted(state, i, after);
+      place(i, moved, after);
     } else {
-      p.stretch[i] += strain;
+      stretch[i] = before + strain;
     }
   }
 }
@@ -48,14 +82,18 @@ class StretchFromPositions {
   void update(State& state, const Law& law) {
     Particles& p = state.particles;
     splines_.fit(p.displacement, fit_);
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      p.stretch[i] = 1.0 + splines_.slope(i, fit_);
-      if constexpr (kinematics == Kinematics::finite) {
-        if (!(p.stretch[i] > 0.0)) throw_inverted(state, i, p.stretch[i]);
-        p.position[i] = p.reference_position[i] + p.displacement[i];
-        p.volume[i] = p.reference_volume[i] * p.stretch[i];
-      }
-      p.stress[i] = law.stress(p.stretch[i]);
+    splines_.slopes(fit_, p.stretch);
+    const std::size_t count = p.size();
+    const double* u = p.displacement.data();
+    double* stretch = p.stretch.data();
+    double* stress = p.stress.data();
+    const Placement<kinematics> place(p);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double after = 1.0 + stretch[i];
+      stretch[i] = after;
+      if (kinematics == Kinematics::finite && !(after > 0.0)) throw_inverted(state, i, after);
+      place(i, u[i], after);
+      stress[i] = law.stress(after);
     }
   }
 
@@ -75,8 +113,8 @@ void join_relaxation(PlanBuilder& builder, const std::shared_ptr<LeastSquares<P>
         auto& u = state.particles.displacement;
         least_squares->project(state, u, *projected);
         const double part = state.drift * rate;
-        for (std::size_t p = 0; p < u.size(); ++p)
-          u[p] += part * (gather<P>(state, state.basis.values, *projected, p) - u[p]);
+        const Gather<P> seen(state, state.basis.values, *projected);
+        for (std::size_t p = 0; p < u.size(); ++p) u[p] += part * (seen(p) - u[p]);
       },
       "per function: projected displacement");
 }
@@ -107,10 +145,11 @@ void join_motion(const Material& material, PlanBuilder& builder) {
     return;
   }
   builder.add(Phase::motion, "displacement", [](State& state) {
-    Particles& particles = state.particles;
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      particles.displacement[p] +=
-          state.drift * gather<P>(state, state.basis.values, state.fields.velocity, p);
+    const std::size_t count = state.particles.size();
+    double* u = state.particles.displacement.data();
+    const double drift = state.drift;
+    const Gather<P> velocity(state, state.basis.values, state.fields.velocity);
+    for (std::size_t p = 0; p < count; ++p) u[p] += drift * velocity(p);
   });
   if (choices.quadrature == Quadrature::reconstructed_exact)
     join_stretch_from_positions<MatchingSplines<P>, kinematics>(material, builder);

@@ -1,7 +1,9 @@
 // Transfers between particles and grid through the basis functions at the particles.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include <hompm/error.hpp>
 #include <hompm/plan/invalid.hpp>
@@ -12,38 +14,63 @@ namespace hompm::detail {
 /// Evaluates the grid functions at the particles. Throws `InvalidRun` for a particle outside the grid.
 template <int P>
 void evaluate_basis(State& state) {
-  const auto& x = state.particles.position;
-  for (std::size_t p = 0; p < x.size(); ++p) {
-    const auto at = state.grid.locate(x[p]);
+  const std::size_t count = state.particles.size();
+  const double* x = state.particles.position.data();
+  std::int32_t* first = state.basis.first.data();
+  double* values = state.basis.values.data();
+  double* gradients = state.basis.gradients.data();
+  const numerics::SplineSpace& grid = state.grid;
+  for (std::size_t p = 0; p < count; ++p, values += P + 1, gradients += P + 1) {
+    const auto at = grid.locate(x[p]);
     if (at.cell < 0) throw_left_grid(state, p);
-    state.basis.first[p] = at.cell;
-    state.grid.evaluate<P>(at, &state.basis.values[p * (P + 1)], &state.basis.gradients[p * (P + 1)]);
+    first[p] = at.cell;
+    grid.evaluate<P>(at, values, gradients);
   }
 }
 
 /// `target_i += Σ_p amount(p) w_i(x_p)`, with w the values or gradients of the basis at the particles. Sums
-/// run in the order of the particles, so the bits are reproducible.
+/// run in the order of the particles, so the bits are reproducible; those of the cell under way stay in
+/// registers.
 template <int P, class Amount>
 void scatter(const State& state, const std::vector<double>& weights, std::vector<double>& target,
              Amount amount) {
   const std::size_t count = state.particles.size();
-  for (std::size_t p = 0; p < count; ++p) {
-    const double a = amount(p);
-    const double* w = &weights[p * (P + 1)];
-    double* t = &target[static_cast<std::size_t>(state.basis.first[p])];
-    for (int k = 0; k <= P; ++k) t[k] += a * w[k];
+  const std::int32_t* first = state.basis.first.data();
+  const double* w = weights.data();
+  for (std::size_t p = 0; p < count;) {
+    const std::int32_t cell = first[p];
+    double* t = &target[static_cast<std::size_t>(cell)];
+    std::array<double, P + 1> sum;
+    std::copy_n(t, P + 1, sum.begin());
+    do {
+      const double a = amount(p);
+      for (std::size_t k = 0; k <= P; ++k) sum[k] += a * w[k];
+      w += P + 1;
+      ++p;
+    } while (p < count && first[p] == cell);
+    std::copy_n(sum.begin(), P + 1, t);
   }
 }
 
-/// Σ_i w_i(x_p) field_i for one particle.
+/// Σ_i w_i(x_p) field_i for one particle after the other.
 template <int P>
-double gather(const State& state, const std::vector<double>& weights, const std::vector<double>& field,
-              std::size_t p) {
-  const double* w = &weights[p * (P + 1)];
-  const double* f = &field[static_cast<std::size_t>(state.basis.first[p])];
-  double sum = w[0] * f[0];
-  for (int k = 1; k <= P; ++k) sum += w[k] * f[k];
-  return sum;
-}
+class Gather {
+ public:
+  Gather(const State& state, const std::vector<double>& weights, const std::vector<double>& field)
+      : first_(state.basis.first.data()), weights_(weights.data()), field_(field.data()) {}
+
+  double operator()(std::size_t p) const {
+    const double* w = weights_ + p * (P + 1);
+    const double* f = field_ + first_[p];
+    double sum = w[0] * f[0];
+    for (int k = 1; k <= P; ++k) sum += w[k] * f[k];
+    return sum;
+  }
+
+ private:
+  const std::int32_t* first_;
+  const double* weights_;
+  const double* field_;
+};
 
 }  // namespace hompm::detail

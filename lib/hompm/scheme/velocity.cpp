@@ -2,10 +2,18 @@
 
 namespace hompm::detail {
 
+void divide_by_mass(const std::vector<double>& field, const std::vector<double>& mass,
+                    std::vector<double>& quotient) {
+  const std::size_t count = mass.size();
+  const double* q = field.data();
+  const double* m = mass.data();
+  double* result = quotient.data();
+  for (std::size_t i = 0; i < count; ++i) result[i] = m[i] > 0.0 ? q[i] / m[i] : 0.0;
+}
+
 void accelerate_lumped(State& state) {
   GridFields& g = state.fields;
-  for (std::size_t i = 0; i < g.mass.size(); ++i)
-    g.acceleration[i] = g.mass[i] > 0.0 ? g.force[i] / g.mass[i] : 0.0;
+  divide_by_mass(g.force, g.mass, g.acceleration);
   const auto fix = [&](std::size_t i) {
     g.acceleration[i] = 0.0;
     state.balance.impulse -= state.kick * g.force[i];
@@ -15,9 +23,11 @@ void accelerate_lumped(State& state) {
 }
 
 double kinetic_energy(const Particles& particles) {
+  const std::size_t count = particles.size();
+  const double* mass = particles.mass.data();
+  const double* velocity = particles.velocity.data();
   double sum = 0.0;
-  for (std::size_t p = 0; p < particles.size(); ++p)
-    sum += 0.5 * particles.mass[p] * particles.velocity[p] * particles.velocity[p];
+  for (std::size_t p = 0; p < count; ++p) sum += 0.5 * mass[p] * velocity[p] * velocity[p];
   return sum;
 }
 

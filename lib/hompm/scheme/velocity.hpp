@@ -9,6 +9,10 @@
 
 namespace hompm::detail {
 
+/// q_i / M_i; 0 for functions with no mass.
+void divide_by_mass(const std::vector<double>& field, const std::vector<double>& mass,
+                    std::vector<double>& quotient);
+
 /// a_i = f_i / M_i; functions with no mass are inactive, and at a fixed end the reaction balances the force.
 void accelerate_lumped(State& state);
 
@@ -19,7 +23,9 @@ void sum_momentum(State& state) {
   std::fill(momentum.begin(), momentum.end(), 0.0);
   const Particles& particles = state.particles;
   scatter<P>(state, state.basis.values, momentum,
-             [&](std::size_t p) { return particles.mass[p] * particles.velocity[p]; });
+             [mass = particles.mass.data(), velocity = particles.velocity.data()](std::size_t p) {
+               return mass[p] * velocity[p];
+             });
 }
 
 /// v_i = Σ_p m_p v_p N_i / M_i; functions with no mass and fixed ends stand still.
@@ -27,8 +33,7 @@ template <int P>
 void project_lumped(State& state) {
   sum_momentum<P>(state);
   GridFields& g = state.fields;
-  for (std::size_t i = 0; i < g.velocity.size(); ++i)
-    g.velocity[i] = g.mass[i] > 0.0 ? g.momentum[i] / g.mass[i] : 0.0;
+  divide_by_mass(g.momentum, g.mass, g.velocity);
   if (state.ends.left == End::fixed) g.velocity.front() = 0.0;
   if (state.ends.right == End::fixed) g.velocity.back() = 0.0;
 }
@@ -46,10 +51,11 @@ void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstructio
     });
   }
   builder.add(Phase::acceleration, "particle velocity (FLIP)", [](State& state) {
-    Particles& particles = state.particles;
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      particles.velocity[p] +=
-          state.kick * gather<P>(state, state.basis.values, state.fields.acceleration, p);
+    const std::size_t count = state.particles.size();
+    double* velocity = state.particles.velocity.data();
+    const double kick = state.kick;
+    const Gather<P> acceleration(state, state.basis.values, state.fields.acceleration);
+    for (std::size_t p = 0; p < count; ++p) velocity[p] += kick * acceleration(p);
   });
 }
 
@@ -83,8 +89,10 @@ void join_pic(PlanBuilder& builder) {
   builder.add(Phase::velocity, "particle velocity (PIC)", [](State& state) {
     Particles& particles = state.particles;
     const double before = kinetic_energy(particles);
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      particles.velocity[p] = gather<P>(state, state.basis.values, state.fields.velocity, p);
+    const std::size_t count = particles.size();
+    double* velocity = particles.velocity.data();
+    const Gather<P> projected(state, state.basis.values, state.fields.velocity);
+    for (std::size_t p = 0; p < count; ++p) velocity[p] = projected(p);
     state.balance.dissipated += before - kinetic_energy(particles);
   });
 }
