@@ -1,7 +1,6 @@
 // Transfers between particles and grid through the basis functions at the particles.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -41,14 +40,14 @@ void scatter(const State& state, const std::vector<double>& weights, std::vector
     const std::int32_t cell = first[p];
     double* t = &target[static_cast<std::size_t>(cell)];
     std::array<double, P + 1> sum;
-    std::copy_n(t, P + 1, sum.begin());
+    for (std::size_t k = 0; k <= P; ++k) sum[k] = t[k];
     do {
       const double a = amount(p);
       for (std::size_t k = 0; k <= P; ++k) sum[k] += a * w[k];
       w += P + 1;
       ++p;
     } while (p < count && first[p] == cell);
-    std::copy_n(sum.begin(), P + 1, t);
+    for (std::size_t k = 0; k <= P; ++k) t[k] = sum[k];
   }
 }
 
