@@ -2,7 +2,8 @@
 //
 //   bare_bspline check CELLS STEPS         exit code 1 unless both give the same bits
 //   bare_bspline bare|library CELLS STEPS  the steps of one alone, for counting instructions
-//   bare_bspline time CELLS STEPS          ns per particle and step, least of 20 rounds by turns: bare library
+//   bare_bspline time CELLS STEPS          ns per particle and step, least of 20 rounds by turns: bare
+//   library
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -57,8 +58,7 @@ class BareBar {
 
   void step() {
     forces();
-    for (std::size_t i = 0; i < field_.size(); ++i)
-      field_[i] = mass_[i] > 0.0 ? -force_[i] / mass_[i] : 0.0;
+    for (std::size_t i = 0; i < field_.size(); ++i) field_[i] = mass_[i] > 0.0 ? -force_[i] / mass_[i] : 0.0;
     field_.front() = field_.back() = 0.0;
     velocities();
     for (std::size_t i = 0; i < field_.size(); ++i)

@@ -72,7 +72,9 @@ def main():
         for scheme, most in MOST_INSTRUCTIONS.items():
             few, many = (
                 instructions(lambda steps: command(tool, scheme, cells, steps, folder), cells, folder) for cells in (64, 512))
-            linear = many <= 1.02 * few  # the ends of the body make few particles dearer, never cheaper
+            # The ends of the body make few particles dearer; above 2 KB the C library clears and copies arrays by one repeated
+            # instruction, of which callgrind counts every turn: up to 16 per particle, 4 %.
+            linear = many <= 1.05 * few
             failed |= few > most or not linear
             print(f"{scheme}: {few:.0f} instructions per particle and step for 256 particles, {many:.0f} for 2048; at most {most}")
         bare = tool.parent.parent / "tests" / "bare_bspline"

@@ -49,7 +49,8 @@ class LeastSquares {
   /// The field for one entry of `data` per particle. Returns what fixed ends add to Σ w_p q_p.
   double project(const State& state, const std::vector<double>& data, std::vector<double>& field) const {
     std::fill(field.begin(), field.end(), 0.0);
-    scatter<P>(state, state.basis.values, field, [weight = weight_.data(), q = data.data()](std::size_t p) { return weight[p] * q[p]; });
+    scatter<P>(state, state.basis.values, field,
+               [weight = weight_.data(), q = data.data()](std::size_t p) { return weight[p] * q[p]; });
     return normal_.solve(field);
   }
 
