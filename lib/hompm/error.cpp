@@ -35,8 +35,12 @@ SceneError::SceneError(std::vector<Problem> problems)
 SceneError::SceneError(const Origin& origin, const std::string& message)
     : SceneError(std::vector<Problem>{{origin, message}}) {}
 
-InvalidRun::InvalidRun(std::int64_t step_, double time_, std::int64_t particle_, const std::string& reason)
-    : Error(invalid_text(step_, time_, particle_, reason)), step(step_), time(time_), particle(particle_) {}
+InvalidRun::InvalidRun(std::int64_t step_, double time_, std::int64_t particle_, const std::string& reason_)
+    : Error(invalid_text(step_, time_, particle_, reason_)),
+      step(step_),
+      time(time_),
+      particle(particle_),
+      reason(reason_) {}
 
 FileError::FileError(std::string_view action, const std::filesystem::path& path, int error_number)
     : Error("cannot " + std::string(action) + " " + path.string() + ": " +

@@ -53,6 +53,7 @@ class InvalidRun : public Error {
   std::int64_t step;
   double time;
   std::int64_t particle;
+  std::string reason;
 };
 
 /// A build or process that does not compute as IEEE 754 says with rounding to nearest.

@@ -53,6 +53,14 @@ TEST_CASE("energy beyond what the start and the loads supplied ends the run as u
                     contains("unstable: energy") && contains("of the critical one"));
 }
 
+TEST_CASE("particles that do not determine a velocity on the grid are refused before the first step") {
+  const auto scene =
+      built_in("bar", "large", {{"scheme.name", "high-order"}, {"scheme.particles_per_cell", "1"}});
+  CHECK_THROWS_AS(hompm::time_stepping(scene), hompm::SceneError);
+  CHECK_THROWS_WITH(hompm::time_stepping(scene),
+                    contains("cannot be started") && contains("use more particles per cell"));
+}
+
 TEST_CASE("what a plan cannot be made of is refused") {
   auto scene = built_in("column", "large");
   scene.effects.front().type = "gravty";

@@ -49,10 +49,14 @@ Simulation::Simulation(const Scene& scene, double time_step)
       state_(initial_state(scene)),
       plan_(make_plan(scene, state_)) {
   state_.time_step = time_step;
-  plan_.run(Phase::geometry, state_);
-  plan_.run(Phase::end_stress, state_);
-  plan_.run(Phase::internal_force, state_);
-  plan_.run(Phase::velocity, state_);
+  try {
+    for (const Phase phase : {Phase::geometry, Phase::end_stress, Phase::internal_force, Phase::velocity})
+      plan_.run(phase, state_);
+  } catch (const InvalidRun& error) {
+    const auto origin = scene.origins.find("scheme.particles_per_cell");
+    throw SceneError(origin == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : origin->second,
+                     "the scene cannot be started: " + error.reason);
+  }
   state_.balance = {};
   const HistoryRow start = history(0.0);
   start_energy_ = total_energy(start);
