@@ -30,7 +30,7 @@ Simulation column_with(const hompm::EffectSpec& effect) {
 }  // namespace
 
 TEST_CASE("the potential of gravity is that of every particle's own mass and displacement") {
-  Simulation simulation = column_with({"gravity", {{"acceleration", -4.0}}, {}});
+  Simulation simulation = column_with({"gravity", {{"acceleration", -4.0}, {"ramp_time", 0.0}}, {}});
   auto& particles = simulation.state().particles;
   double moment = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
