@@ -267,7 +267,8 @@ TEST_CASE("equilibrium of every law, from either side", "[reference]") {
 
 TEST_CASE("loads of one kind add up", "[reference]") {
   Scene twice = column("rate");
-  twice.effects = {effect("gravity", {{"acceleration", -4.0}, {"ramp_time", 0.0}}), effect("gravity", {{"acceleration", -4.0}, {"ramp_time", 0.0}})};
+  twice.effects = {effect("gravity", {{"acceleration", -4.0}, {"ramp_time", 0.0}}),
+                   effect("gravity", {{"acceleration", -4.0}, {"ramp_time", 0.0}})};
   Scene once = column("rate");
   once.effects = {effect("gravity", {{"acceleration", -8.0}, {"ramp_time", 0.0}})};
   const std::vector<double> X = points(1.0, 7);
