@@ -61,7 +61,7 @@ SplineSpace::SplineSpace(int degree, int cells, double origin, double cell_width
   if (!(cell_width > 0.0) || !std::isfinite(cell_width)) throw Error("the cell width must be above zero");
 
   const int distinct = cells - shared_;
-  const auto piece_size = static_cast<std::size_t>(2 * (degree + 1) * (degree + 1));
+  const auto piece_size = 2 * static_cast<std::size_t>(degree + 1) * static_cast<std::size_t>(degree + 1);
   pieces_.resize(static_cast<std::size_t>(distinct) * piece_size);
   for (int piece = 0; piece < distinct; ++piece) {
     const int cell = piece < degree ? piece : cells - distinct + piece;

@@ -126,7 +126,8 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     }
     if (observer.progress) observer.progress(step, stepping.steps);
     if (observer.checkpoint_every > 0 && step % observer.checkpoint_every == 0 && !last)
-      observer.checkpoint({simulation.state(), result, guard.supplied(), rest ? rest->quiet_steps() : 0});
+      observer.checkpoint({simulation.state(), static_cast<const RunExtremes&>(result), guard.supplied(),
+                           rest ? rest->quiet_steps() : 0});
   }
   return result;
 }
