@@ -30,7 +30,7 @@ class Reconstruction {
   /// b_i = Σ_g w_g ρ q(x_g) N_i(x_g), q the spline through the particle data: solving with the mass projects
   /// q.
   virtual void weighted_integrals(const std::vector<double>& data, std::vector<double>& b) = 0;
-  /// b_i = Σ_g w_g ρ v(x_g) N_i(x_g) of a field on the grid.
+  /// b_i = Σ_g w_g ρ v(x_g) N_i(x_g) of a field on the grid, with the density of `update_density`.
   virtual void momentum(const std::vector<double>& velocity, std::vector<double>& b) = 0;
   /// Solves Σ_j M_ij a_j = f_i in place; returns the sum of the reactions at fixed ends (Pa).
   virtual double solve(std::vector<double>& force_to_acceleration) = 0;

@@ -104,11 +104,12 @@ void join_velocity(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& 
   join_acceleration<P>(builder, splines);
   join_projection<P>(builder, splines, least_squares);
   if (choices.transfer == Transfer::pic) join_pic<P>(builder);
-  if (choices.velocity_projection == VelocityProjection::least_squares && splines)
+  if (choices.velocity_projection != VelocityProjection::least_squares) return;
+  if (choices.acceleration_mass == MassForm::consistent)
     builder.update_momentum = [splines](State& state) {
       splines->momentum(state.fields.velocity, state.fields.momentum);
     };
-  else if (choices.velocity_projection == VelocityProjection::least_squares)
+  else
     builder.update_momentum = sum_momentum<P>;
 }
 

@@ -1,0 +1,146 @@
+// The choices of a scheme that a scene makes itself, and what does not go together.
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <hompm/error.hpp>
+#include <hompm/numerics/smooth_step.hpp>
+#include <hompm/simulation/run.hpp>
+
+#include "support/catch.hpp"
+#include "support/message_of.hpp"
+#include "support/scenes.hpp"
+
+using hompm::test::built_in;
+using hompm::test::contains;
+
+namespace {
+
+using Keys = std::vector<std::pair<std::string, std::string>>;
+
+hompm::Scene large(const std::string& case_name, const Keys& keys) {
+  std::vector<hompm::Override> overrides;
+  for (const auto& [key, value] : keys) overrides.push_back({key, value, "--set " + key});
+  return hompm::load_builtin(case_name, "large", overrides);
+}
+
+hompm::RunResult run(const std::string& case_name, const Keys& keys) {
+  const auto scene = large(case_name, keys);
+  return hompm::run(scene, hompm::time_stepping(scene));
+}
+
+}  // namespace
+
+TEST_CASE("the smooth step joins 0 and 1, symmetric about its middle") {
+  using hompm::numerics::smooth_step;
+  CHECK(smooth_step(-1.0) == 0.0);
+  CHECK(smooth_step(0.5) == 0.5);
+  CHECK(smooth_step(2.0) == 1.0);
+  for (const double x : {0.0, 0.1, 0.25, 0.4})
+    CHECK(std::abs(smooth_step(x) + smooth_step(1.0 - x) - 1.0) < 1e-13);  // rounding of coefficients to 540
+  CHECK(hompm::numerics::ramp(0.1, 0.0) == 1.0);
+  CHECK(hompm::numerics::ramp(0.1, 0.2) == 0.5);
+}
+
+TEST_CASE("gravity that is ramped up is external work, and the balances close") {
+  const auto result = run("column", {{"scheme.name", "high-order"},
+                                     {"scheme.cells", "16"},
+                                     {"effect.gravity.ramp_time", "0.2"},
+                                     {"end_time", "0.4"}});
+  CHECK(result.end.gravity == 0.0);
+  CHECK(result.end.external_work > 0.0);
+  // Work is summed by the midpoint rule in time: second order, and the step is 1e-4 s.
+  CHECK(result.largest_residual < 1e-3 * result.end.external_work);
+}
+
+TEST_CASE("conserve says what the reconstructed density keeps") {
+  const auto state_of = [](const std::string& kept) {
+    const auto scene = built_in("bar", "large",
+                                {{"scheme.name", "high-order"},
+                                 {"scheme.cells", "8"},
+                                 {"scheme.conserve", kept},
+                                 {"scheme.courant", "0.2"},
+                                 {"end_time", "1"}});
+    const auto stepping = hompm::time_stepping(scene);
+    hompm::Simulation simulation(scene, stepping.time_step);
+    for (int step = 0; step < stepping.steps; ++step) simulation.step();
+    const auto& mass = simulation.state().fields.mass;
+    return std::pair(std::accumulate(mass.begin(), mass.end(), 0.0) - simulation.state().total_mass,
+                     simulation.history(1.0).momentum_residual);
+  };
+  const auto nothing = state_of("nothing");
+  CHECK(std::abs(nothing.first) > 1e-10);
+  CHECK(std::abs(nothing.second) > 1e-6);
+  CHECK(std::abs(state_of("cell-mass").first) < 1e-12);  // rounding of 25 kg/m²
+  CHECK(std::abs(state_of("momentum").second) < 1e-12);  // of 16 kg/(m s)
+  const auto column = run("column", {{"scheme.name", "high-order"},
+                                     {"scheme.degree", "2"},
+                                     {"scheme.cells", "16"},
+                                     {"scheme.particles_per_cell", "8"},
+                                     {"scheme.conserve", "momentum"},
+                                     {"end_time", "0.2"}});
+  CHECK(column.largest_momentum_residual < 1e-9);  // of 500 kg/(m s), the cut span ties functions
+}
+
+TEST_CASE("choices may be made with any scheme that has what they need") {
+  const auto keys = GENERATE(
+      Keys{{"scheme.name", "bspline"},
+           {"scheme.velocity_projection", "least-squares"},
+           {"scheme.transfer", "pic"}},
+      Keys{{"scheme.name", "bspline"}, {"scheme.stress_update", "from-positions"}, {"scheme.degree", "5"}},
+      Keys{{"scheme.name", "tielen2017"}, {"scheme.time_integrator", "leapfrog"}, {"scheme.markers", "true"}},
+      Keys{{"scheme.name", "high-order"}, {"scheme.quadrature", "reconstructed"}, {"scheme.degree", "4"}},
+      Keys{{"scheme.name", "high-order"}, {"scheme.acceleration_mass", "lumped"}});
+  Keys all = keys;
+  all.insert(all.end(), {{"scheme.cells", "16"}, {"end_time", "0.2"}});
+  const auto result = run("bar", all);
+  CHECK(result.largest_residual < 1e-2 * result.start.kinetic);
+}
+
+TEST_CASE("mass damping takes the momentum of the scheme's own projection") {
+  // A rigid body at 1 m/s, b = -2 v: v decays with exp(-2 t), to the order of the step.
+  for (const std::string name : {"classical", "bspline", "tielen2017", "high-order"})
+    for (const std::string projection : {"", "least-squares"}) {
+      std::string text = R"(
+end_time = 0.1
+body.length = 1
+material = { law = "rate", density = 1, youngs_modulus = 1 }
+ends = { left = "free", right = "free" }
+effect = [ { type = "mass-damping", rate = 2.0 }, { type = "gravity", acceleration = 1.0 } ]
+[scheme]
+cells = 8
+particles_per_cell = 4
+time_step = 1e-3
+name = ")" + name + "\"\n";
+      if (!projection.empty()) text += "velocity_projection = \"" + projection + "\"\n";
+      const auto scene = hompm::parse_scene(text, "block.toml", {});
+      const auto result = hompm::run(scene, hompm::time_stepping(scene));
+      INFO(name << ' ' << projection);
+      CHECK(std::abs(result.end.momentum - 0.5 * (1.0 - std::exp(-0.2))) < 2e-3 * result.end.momentum);
+    }
+}
+
+TEST_CASE("choices that do not go together are refused, at the one the scene made") {
+  const auto refusal = [](const Keys& keys) {
+    return hompm::test::message_of<hompm::SceneError>([&] { large("bar", keys); });
+  };
+  const Keys bspline{{"scheme.name", "bspline"}};
+  const auto with = [&](Keys keys, const std::string& key, const std::string& value) {
+    keys.emplace_back(key, value);
+    return refusal(keys);
+  };
+  for (const auto& [key, value] : Keys{{"scheme.acceleration_mass", "consistent"},
+                                       {"scheme.velocity_projection", "consistent"},
+                                       {"scheme.free_end", "cut-span"},
+                                       {"scheme.conserve", "cell-mass"}})
+    CHECK_THAT(with(bspline, key, value),
+               contains("`" + key + "`") && contains("needs reconstructed fields"));
+  CHECK_THAT(with(bspline, "scheme.relaxation_rate", "1"), contains("`scheme.stress_update` must be"));
+  const Keys tielen{{"scheme.name", "tielen2017"}};
+  CHECK_THAT(with(tielen, "scheme.conserve", "momentum"), contains("lumped mass conserves momentum"));
+  CHECK_THAT(with({{"scheme.name", "tielen2017"}, {"scheme.velocity_projection", "lumped"}},
+                  "scheme.free_end", "extension"),
+             contains("ties functions of a consistent mass"));
+}
