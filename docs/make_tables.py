@@ -327,9 +327,17 @@ def output(tools):
     return ["```text", *lines[:start], "  ...", *lines[stop:], "```"]
 
 
+def examples(_tools):
+    rows = []
+    for path in sorted((ROOT / "docs/scenes").glob("*.toml")):
+        scene = tomllib.loads(path.read_text(encoding="utf-8"))
+        rows.append([f"[{path.stem}]({path.name})", scene["title"], ", ".join(f"`{name}`" for name in dict.fromkeys(effect["type"] for effect in scene.get("effect", [])))])
+    return table(["scene", "what happens", "effects"], rows)
+
+
 PARTS = {
     "schemes": schemes, "choices": choices, "cases": cases, "plan": plan, "output": output, "limits": limits, "limits-p1": limits_p1,
-    "rooms": rooms, "mistake": mistake, "parting": parting,
+    "rooms": rooms, "examples": examples, "mistake": mistake, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,
@@ -358,7 +366,7 @@ def mentions(tools):
     scene = ["--case", "column", "--set", "ends.left=free", "--set", "ends.right=fixed"]
     stages = [tools.text(*scene, "--scheme", scheme, "--explain") for scheme in SCHEMES]
     stages.append(tools.text("--case", "column", "--variant", "settled", "--explain"))
-    stages.append(tools.text("--case", "column", "--set", "effect.gravity.ramp_time=1", "--explain"))
+    stages += [tools.text("--scene", scene, "--explain") for scene in sorted((ROOT / "docs/scenes").glob("*.toml"))]
     for name in re.findall(r"^  \d+\.\s+(.*?)\s+for (?:scheme|effect) ", "\n".join(stages), re.MULTILINE):
         yield "docs/method.md", name
 
@@ -392,7 +400,7 @@ def main():
     parser.add_argument("--slow", action="store_true", help=f"also the parts {', '.join(SLOW_PARTS)}")
     arguments = parser.parse_args()
 
-    files = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *(ROOT / name / "README.md" for name in ("golden", "coverage"))]
+    files = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *(ROOT / name / "README.md" for name in ("docs/scenes", "golden", "coverage"))]
     complaints = []
     with tempfile.TemporaryDirectory() as work:
         tools = Tools(arguments.tool.resolve(), work)

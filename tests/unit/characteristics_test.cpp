@@ -89,7 +89,7 @@ TEST_CASE("the method of lines tends to the net", "[characteristics]") {
   scene.material = {"rate", 1000.0, 1e5};
   scene.ends.right = End::free;
   Loads loads;
-  loads.gravity = {{.acceleration = -9.81}};
+  loads.gravity = {{.value = -9.81}};
   const std::vector<double> X = points(100);
   const ReferenceFields exact = gas_column(column, 32)(0.5, X);
   const auto error = [&](int elements) {

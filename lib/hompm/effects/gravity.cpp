@@ -1,5 +1,6 @@
+#include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/effects.hpp>
-#include <hompm/numerics/smooth_step.hpp>
+#include <hompm/scene/amplitude.hpp>
 
 namespace hompm::detail {
 namespace {
@@ -11,24 +12,26 @@ void apply(State& state, double b) {
 }
 
 /// Changes with time, so that it has no potential: what it does is external work.
-void join_ramped(double b, double ramp_time, PlanBuilder& builder) {
-  builder.add(Phase::external_force, "gravity, ramped", [b, ramp_time](State& state) {
-    apply(state, b * numerics::ramp(state.position_time, ramp_time));
-  });
-  builder.add(Phase::work, "gravity, ramped: external work", [b, ramp_time](State& state) {
+void join_changing(double b, const Amplitude& amplitude, const std::string& name, PlanBuilder& builder) {
+  builder.add(Phase::external_force, name,
+              [b, amplitude](State& state) { apply(state, b * amplitude(state.position_time)); });
+  builder.add(Phase::work, name + ": external work", [b, amplitude](State& state) {
     const Particles& p = state.particles;
     double momentum = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) momentum += p.mass[i] * p.velocity[i];
     const double middle = state.position_time + 0.5 * state.drift;
-    state.balance.external_work += state.drift * b * numerics::ramp(middle, ramp_time) * momentum;
+    state.balance.external_work += state.drift * b * amplitude(middle) * momentum;
   });
 }
 
 /// f_i = b Σ_p m_p N_i(x_p) = b M_i, potential −b Σ m u (Tielen et al. 2017, section 2).
 void join(const EffectSpec& spec, PlanBuilder& builder) {
   const double b = spec.number("acceleration");
-  if (const double ramp_time = spec.number("ramp_time"); ramp_time > 0.0)
-    return join_ramped(b, ramp_time, builder);
+  const Amplitude amplitude = amplitude_of(spec);
+  if (!amplitude.constant()) {
+    const bool only_ramped = amplitude.final() == 1.0;
+    return join_changing(b, amplitude, only_ramped ? "gravity, ramped" : "gravity, changing", builder);
+  }
   builder.add(Phase::external_force, "gravity", [b](State& state) { apply(state, b); });
   builder.plan.potentials.push_back([b](const State& state) {
     double moment = 0.0;
@@ -42,15 +45,10 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
 
 EffectType gravity() {
   return {.name = "gravity",
-          .meaning = "constant body force, switched on at t = 0 or ramped up",
-          .parameters = {{.name = "acceleration",
-                          .unit = "m/s^2",
-                          .meaning = "in the direction of X; -9.81 pulls a column down"},
-                         {.name = "ramp_time",
-                          .unit = "s",
-                          .meaning = "until it acts in full, with four continuous derivatives; 0: at once",
-                          .minimum = 0.0,
-                          .default_value = 0.0}},
+          .meaning = "body force: from t = 0, ramped up, oscillating, or a pulse",
+          .parameters = with_amplitude({{.name = "acceleration",
+                                         .unit = "m/s^2",
+                                         .meaning = "in the direction of X; -9.81 pulls a column down"}}),
           .join = join};
 }
 

@@ -1,6 +1,8 @@
 #include <array>
 
+#include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/effects.hpp>
+#include <hompm/scene/amplitude.hpp>
 
 namespace hompm::detail {
 namespace {
@@ -10,6 +12,7 @@ namespace {
 void join(const EffectSpec& spec, PlanBuilder& builder) {
   const bool right = spec.text("end") == "right";
   const double force = right ? spec.number("value") : -spec.number("value");
+  const Amplitude amplitude = amplitude_of(spec);
 
   const auto at_end = [right](const State& state, auto visit) {
     std::array<double, 6> values{};
@@ -22,17 +25,19 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   };
   if (builder.wants_end_stress)
     builder.add(Phase::end_stress, "traction: stress at the end",
-                [right, stress = spec.number("value")](State& state) {
-                  (right ? state.right_stress : state.left_stress) += stress;
+                [right, stress = spec.number("value"), amplitude](State& state) {
+                  (right ? state.right_stress : state.left_stress) += stress * amplitude(state.position_time);
                 });
-  builder.add(Phase::external_force, "traction", [at_end, force](State& state) {
-    at_end(state, [&](std::size_t i, double value) { state.fields.force[i] += force * value; });
-    state.balance.impulse += state.kick * force;
+  builder.add(Phase::external_force, "traction", [at_end, force, amplitude](State& state) {
+    const double now = force * amplitude(state.position_time);
+    at_end(state, [&](std::size_t i, double value) { state.fields.force[i] += now * value; });
+    state.balance.impulse += state.kick * now;
   });
-  builder.add(Phase::work, "traction: external work", [at_end, force](State& state) {
+  builder.add(Phase::work, "traction: external work", [at_end, force, amplitude](State& state) {
     double velocity = 0.0;
     at_end(state, [&](std::size_t i, double value) { velocity += value * state.fields.velocity[i]; });
-    state.balance.external_work += state.drift * force * velocity;
+    const double middle = state.position_time + 0.5 * state.drift;
+    state.balance.external_work += state.drift * force * amplitude(middle) * velocity;
   });
 }
 
@@ -40,13 +45,14 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
 
 EffectType traction() {
   return {.name = "traction",
-          .meaning = "constant stress on a free end, switched on at t = 0",
-          .parameters = {{.name = "value", .unit = "Pa", .meaning = "stress at the end, tension positive"},
-                         {.name = "end",
-                          .unit = "",
-                          .meaning = "which end",
-                          .words = {"left", "right"},
-                          .default_value = "right"}},
+          .meaning = "stress on a free end: from t = 0, ramped up, oscillating, or a pulse",
+          .parameters = with_amplitude(
+              {{.name = "value", .unit = "Pa", .meaning = "stress at the end, tension positive"},
+               {.name = "end",
+                .unit = "",
+                .meaning = "which end",
+                .words = {"left", "right"},
+                .default_value = "right"}}),
           .join = join};
 }
 

@@ -1,6 +1,3 @@
-#include <algorithm>
-
-#include <hompm/numerics/smooth_step.hpp>
 #include <hompm/reference/loads.hpp>
 
 namespace hompm {
@@ -9,14 +6,14 @@ std::optional<Loads> loads_of(const Scene& scene) {
   Loads loads;
   for (const EffectSpec& effect : scene.effects) {
     if (effect.type == "gravity") {
-      loads.gravity.push_back({effect.number("acceleration"), effect.number("ramp_time")});
+      loads.gravity.push_back({effect.number("acceleration"), amplitude_of(effect)});
     } else if (effect.type == "mass-damping") {
       loads.damping_rate += effect.number("rate");
     } else if (effect.type == "local-damping") {
       loads.local_damping = true;
     } else if (effect.type == "traction") {
       const bool left = effect.text("end") == "left";
-      (left ? loads.left_stress : loads.right_stress) += effect.number("value");
+      (left ? loads.left : loads.right).push_back({effect.number("value"), amplitude_of(effect)});
     } else {
       return std::nullopt;
     }
@@ -24,20 +21,20 @@ std::optional<Loads> loads_of(const Scene& scene) {
   return loads;
 }
 
-double Loads::acceleration(double time) const {
+double total(const std::vector<Load>& loads, double time) {
   double sum = 0.0;
-  for (const BodyForce& force : gravity) sum += force.acceleration * numerics::ramp(time, force.ramp_time);
+  for (const Load& load : loads) sum += load.value * load.amplitude(time);
   return sum;
 }
 
-double Loads::full_acceleration() const {
+std::optional<double> final_total(const std::vector<Load>& loads) {
   double sum = 0.0;
-  for (const BodyForce& force : gravity) sum += force.acceleration;
+  for (const Load& load : loads) {
+    const std::optional<double> factor = load.amplitude.final();
+    if (!factor) return std::nullopt;
+    sum += load.value * *factor;
+  }
   return sum;
-}
-
-bool Loads::ramped() const {
-  return std::ranges::any_of(gravity, [](const BodyForce& force) { return force.ramp_time > 0.0; });
 }
 
 }  // namespace hompm

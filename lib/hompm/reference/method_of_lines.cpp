@@ -76,9 +76,9 @@ class Lines {
     }
     smallest_stretch_ = smallest;
     valid_ = valid_ && valid;
-    force[0] -= loads_.left_stress;
-    force[nodes_ - 1] += loads_.right_stress;
-    const double acceleration = loads_.acceleration(time);
+    force[0] -= total(loads_.left, time);
+    force[nodes_ - 1] += total(loads_.right, time);
+    const double acceleration = total(loads_.gravity, time);
     for (std::size_t i = 0; i < nodes_; ++i) {
       force[i] = force[i] * inverse_mass_[i] + acceleration - loads_.damping_rate * v[i];
     }
@@ -154,12 +154,13 @@ class Lines {
 }  // namespace
 
 Resolution suitable_resolution(const Scene& scene, const Loads& loads) {
-  const bool sudden = std::ranges::any_of(loads.gravity, [](const BodyForce& force) {
-    return force.ramp_time == 0.0 && force.acceleration != 0.0;
-  });
+  const auto sudden = [](const std::vector<Load>& of) {
+    return std::ranges::any_of(
+        of, [](const Load& load) { return load.value != 0.0 && !load.amplitude.smooth(); });
+  };
   const bool fixed = scene.ends.left == End::fixed && scene.ends.right == End::fixed;
-  const bool pulled = loads.left_stress != 0.0 || loads.right_stress != 0.0;
-  const bool smooth = !sudden && (fixed || (!pulled && !scene.initial_velocity));
+  const bool kinks = sudden(loads.gravity) || sudden(loads.left) || sudden(loads.right);
+  const bool smooth = !kinks && (fixed || !scene.initial_velocity);
   const int mode = scene.initial_velocity ? std::max(scene.initial_velocity->mode, 1) : 1;
   return smooth ? Resolution{8 + 8 * mode, 12, 0.25} : Resolution{std::max(96, 8 * mode), 4, 1.0};
 }

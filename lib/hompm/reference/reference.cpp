@@ -46,8 +46,8 @@ Reference estimated(std::string description, FieldsAt fine, FieldsAt coarse) {
 /// A scene seen from the other side: X becomes L − X.
 Loads mirrored(const Loads& loads) {
   Loads other = loads;
-  for (BodyForce& force : other.gravity) force.acceleration = -force.acceleration;
-  std::swap(other.left_stress, other.right_stress);
+  for (Load& load : other.gravity) load.value = -load.value;
+  std::swap(other.left, other.right);
   return other;
 }
 
@@ -67,15 +67,21 @@ FieldsAt mirrored(const FieldsAt& at, double length) {
 
 /// Solutions of a body fixed on the left and free on the right, other than by the method of lines.
 std::optional<Reference> column_reference(const Scene& scene, const Loads& loads) {
+  const std::optional<double> weight = final_total(loads.gravity);
+  const std::optional<double> pull = final_total(loads.right);
   if (scene.rest) {
-    const auto at = [scene, loads](double, std::span<const double> X) {
-      return static_equilibrium(scene, loads, X);
+    if (!weight || !pull) return std::nullopt;
+    const auto at = [scene, weight, pull](double, std::span<const double> X) {
+      return static_equilibrium(scene, *weight, *pull, X);
     };
     return exact("static equilibrium, valid once at rest (quadrature of the inverted law)", at);
   }
-  const double acceleration = loads.full_acceleration();
-  const bool only_gravity = acceleration != 0.0 && loads.damping_rate == 0.0 && loads.right_stress == 0.0;
-  if (!only_gravity || loads.ramped() || loads.local_damping || scene.initial_velocity) return std::nullopt;
+  const bool constant =
+      std::ranges::all_of(loads.gravity, [](const Load& load) { return load.amplitude.constant(); });
+  const bool pulled = std::ranges::any_of(loads.right, [](const Load& load) { return load.value != 0.0; });
+  const double acceleration = weight.value_or(0.0);
+  const bool only_gravity = acceleration != 0.0 && loads.damping_rate == 0.0 && !pulled;
+  if (!only_gravity || !constant || loads.local_damping || scene.initial_velocity) return std::nullopt;
   const double speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
   if (scene.material.law == "linear") {
     const LinearBody body{scene.body.length, scene.material.density, speed};

@@ -22,12 +22,13 @@ double stretch(const Law& law, double stress) {
 
 }  // namespace
 
-ReferenceFields static_equilibrium(const Scene& scene, const Loads& loads, std::span<const double> X) {
+ReferenceFields static_equilibrium(const Scene& scene, double acceleration, double pull,
+                                   std::span<const double> X) {
   static const numerics::GaussRule rule = numerics::gauss_legendre(10);
   const double length = scene.body.length;
-  const double weight = scene.material.density * loads.full_acceleration();
+  const double weight = scene.material.density * acceleration;
   const double longest_panel = length / 64.0;
-  const auto stress = [&](double x) { return loads.right_stress + weight * (length - x); };
+  const auto stress = [&](double x) { return pull + weight * (length - x); };
 
   ReferenceFields fields;
   const auto integrate = [&](const auto& law) {
