@@ -239,27 +239,6 @@ TEST_CASE("instructions of a run follow from those of a few steps without overfl
         10'000'000'000'000'000'000ULL);
 }
 
-TEST_CASE("states to step from come back as they were written", "[study]") {
-  for (const char* scheme : {"high-order", "classical"}) {
-    const Study study = {.case_name = "column",
-                         .variant = "large",
-                         .settings = {{"scheme.cells", "8"}, {"scheme.courant", "0.2"}, {"end_time", "0.4"}},
-                         .sweeps = {{{"scheme.name", {scheme}}}}};
-    const auto measured = study::measure(study, study::points_of(study).front(), "me", no_check);
-    REQUIRE(static_cast<std::int64_t>(measured.moments.size()) == measured.record.work.steps + 1);
-    const TemporaryFolder folder;
-    study::write_moments(folder.path(), measured);
-    CHECK(study::step_from_moments(folder.path()) == measured.record.work.steps + 1);
-    const std::string bytes = read_file(folder / "moments");
-    write_file(folder / "moments", bytes.substr(0, bytes.size() - 8));
-    CHECK(contains(message_of<FileError>([&] { study::step_from_moments(folder.path()); }), "cannot read"));
-    write_file(folder / "moments", "x");
-    CHECK(contains(message_of<FileError>([&] { study::step_from_moments(folder.path()); }), "cannot read"));
-    CHECK(contains(message_of<FileError>([&] { study::write_moments(folder / "none", measured); }),
-                   "cannot write"));
-  }
-}
-
 TEST_CASE("a record that is none is refused", "[study]") {
   CHECK(contains(message_of<Error>([] { study::read_record("{"); }), "not a record"));
   CHECK(contains(message_of<Error>([] { study::read_record("{}"); }), "not a record"));

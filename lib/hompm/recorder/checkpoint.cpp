@@ -2,9 +2,8 @@
 
 #include <hompm/build_info.hpp>
 #include <hompm/output/run_folder.hpp>
-#include <hompm/plan/state_fields.hpp>
-#include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/checkpoint.hpp>
+#include <hompm/recorder/state_bytes.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/columns.hpp>
 
@@ -70,28 +69,14 @@ void read_records(ByteReader& in, Checkpoint& checkpoint) {
 void write_point(ByteWriter& out, const RunPoint& point) {
   visit_sums(point, [&](double value) { out.number(value); });
   out.word(detail::word_of(point.quiet_steps));
-  visit_fields(point.state, [&](std::string_view name, Site, auto values) {
-    out.text(name);
-    out.word(values.size());
-    for (const auto value : values) out.word(detail::word_of(value));
-  });
-}
-
-void read_value(ByteReader& in, double& value) { value = in.number(); }
-void read_value(ByteReader& in, std::integral auto& value) {
-  value = static_cast<std::remove_reference_t<decltype(value)>>(in.word());
+  detail::write_state(out, point.state);
 }
 
 /// Throws `Error` when a field is not what the scene makes it.
 void read_point(ByteReader& in, RunPoint& point) {
   visit_sums(point, [&](double& value) { value = in.number(); });
-  read_value(in, point.quiet_steps);
-  visit_fields(point.state, [&](std::string_view name, Site, auto values) {
-    const std::string found = in.text();
-    if (found != name) throw Error("it has the field " + found + " in place of " + std::string(name));
-    if (in.count(8) != values.size()) throw Error("its field " + found + " does not fit its scene");
-    for (auto& value : values) read_value(in, value);
-  });
+  detail::read_value(in, point.quiet_steps);
+  detail::read_state(in, point.state);
 }
 
 Checkpoint read_content(std::string_view bytes, const std::string& source) {
@@ -100,7 +85,7 @@ Checkpoint read_content(std::string_view bytes, const std::string& source) {
     throw Error("it was written by hompm " + writer + ", and this is " + identity() +
                 ": the result would be that of neither");
   Checkpoint checkpoint = first_checkpoint(parse_scene(in.text(), "scene in " + source, {}));
-  read_value(in, checkpoint.every);
+  detail::read_value(in, checkpoint.every);
   checkpoint.vtk = in.word() != 0;
   checkpoint.seconds = in.number();
   read_records(in, checkpoint);

@@ -42,15 +42,25 @@ void fail(Record& record, Status status, const std::string& reason) {
   record.reason = reason;
 }
 
+/// From how many states of a run steps are counted, at least: from many of a small body, whose step is the
+/// dearer the more cells its end has reached; from one of a very large body, where a state costs more than it
+/// tells.
+std::int64_t states_of(const Scene& scene) {
+  const std::int64_t particles = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell;
+  return particles > 20000 ? 1 : std::clamp<std::int64_t>(8192 / particles, 32, 256);
+}
+
 void run_and_judge(const Scene& scene, const Check& check, Measured& measured) {
   Record& record = measured.record;
   const TimeStepping stepping = time_stepping(scene);
-  measured.moments.clear();
-  const RunResult result =
-      run(scene, stepping,
-          {.snapshot = [&](const Snapshot& snapshot) { measured.moments.push_back(snapshot); },
-           .history = {},
-           .progress = [&](std::int64_t, std::int64_t) { check(); }});
+  std::vector<State> moments;
+  RunObserver observer;
+  observer.progress = [&](std::int64_t, std::int64_t) { check(); };
+  observer.checkpoint = [&](const RunPoint& point) { moments.push_back(point.state); };
+  observer.checkpoint_every = std::max<std::int64_t>(stepping.steps / (states_of(scene) + 1), 1);
+  const RunResult result = run(scene, stepping, observer);
+  // The first step finds the geometry ready and is cheaper: it counts only where there is no other.
+  if (!moments.empty()) measured.moments = std::move(moments);
   std::string reason;
   record.errors = judge(scene, result, reason);
   if (!record.errors) fail(record, Status::unjudged, reason);
@@ -60,12 +70,7 @@ void run_and_judge(const Scene& scene, const Check& check, Measured& measured) {
 
 Scene measured_scene(const Study& study, const Point& point) {
   Scene scene = scene_of(study, point);
-  // Many states of a small body, whose step is the dearer the more cells its end has reached; of a very large
-  // one, where a state costs more than it tells, only start and end.
-  const std::int64_t particles = std::int64_t{scene.scheme.cells} * scene.scheme.particles_per_cell;
-  const int moments =
-      particles > 20000 ? 1 : static_cast<int>(std::clamp<std::int64_t>(8192 / particles, 32, 256));
-  scene.output = {.snapshots = moments, .history = 1};
+  scene.output = {.snapshots = 1, .history = 1};
   return scene;
 }
 
@@ -85,25 +90,22 @@ Measured measure(const Study& study, const Point& point, const std::string& prog
     record.time_step = measured.stepping.time_step;
     const Simulation start(scene, measured.stepping.time_step);
     record.work = work_of(scene, measured.stepping, start.state());
-    measured.moments.push_back(start.snapshot(0.0));
+    measured.moments.push_back(start.state());
     run_and_judge(scene, check, measured);
   } catch (const SceneError& error) {
     fail(record, Status::refused, error.what());
   } catch (const InvalidRun& error) {
     fail(record, Status::invalid, error.what());
-    measured.moments.resize(1);  // the later ones may be past stepping from
   }
   return measured;
 }
 
 double timed(const Scene& scene) {
   using Clock = std::chrono::steady_clock;
-  Scene quiet = scene;
-  quiet.output.snapshots = 1;
-  const TimeStepping stepping = time_stepping(quiet);
+  const TimeStepping stepping = time_stepping(scene);
   Clock::time_point start;
   bool started = false;
-  run(quiet, stepping,
+  run(scene, stepping,
       {.snapshot =
            [&](const Snapshot&) {
              if (!started) start = Clock::now();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/simulation/records.hpp>
+#include <hompm/plan/state.hpp>
 #include <hompm/simulation/time_step.hpp>
 #include <hompm/study/record.hpp>
 
@@ -19,8 +19,9 @@ using Check = std::function<void()>;
 struct Measured {
   Record record;
   TimeStepping stepping;
-  std::vector<Snapshot>
-      moments;  ///< states of the run, the start first; none for settings that do not go together
+  /// States of the run to step from: after its first step, or the start of one that was refused or became
+  /// invalid. None for settings that do not go together.
+  std::vector<State> moments;
 };
 
 /// The scene of a point as it is measured. Throws `SceneError`.
@@ -35,7 +36,8 @@ double timed(const Scene& scene);
 /// States to step from, as a file: what `hompm-study --count` reads. Throws `FileError`.
 void write_moments(const std::filesystem::path& folder, const Measured& measured);
 
-/// Does one step from each of the states that `write_moments` left in `folder`. How many steps that were.
+/// Does one step from each of the states that `write_moments` left in `folder`: the step that the run did from
+/// there. How many steps that were. Throws `FileError`.
 std::int64_t step_from_moments(const std::filesystem::path& folder);
 
 }  // namespace hompm::study
