@@ -24,8 +24,6 @@ bool read_whole(const std::string& text, Number& number) {
   return error == std::errc{} && stop == end;
 }
 
-}  // namespace
-
 CommandLine read_command_line(int argc, const char* const* argv, const po::options_description& options) {
   // The name of the option behind the arguments holds a blank, so that nobody can type it by accident.
   const char* const arguments = "other arguments";
@@ -60,6 +58,34 @@ CommandLine read_command_line(int argc, const char* const* argv, const po::optio
   }
 }
 
+/// What --help prints.
+std::ostream& operator<<(std::ostream& out, const Tool& tool) {
+  return out << tool.synopsis << '\n' << tool.options << '\n' << tool.remarks;
+}
+
+int answer(Tool& tool, int argc, const char* const* argv,
+           const std::function<int(const CommandLine&)>& body) {
+  tool.options.add_options()("version", "print the version")("help", "print this");
+  if (argc < 2) {
+    std::cerr << tool;
+    return usage;
+  }
+  const CommandLine line = read_command_line(argc, argv, tool.options);
+  if (!tool.takes_arguments && !line.arguments.empty())
+    throw UsageError("`" + line.arguments.front() + "` is not an option");
+  if (line.options.count("help") > 0) {
+    std::cout << tool;
+    return success;
+  }
+  if (line.options.count("version") > 0) {
+    std::cout << tool.name << ' ' << build_info().version << '\n';
+    return success;
+  }
+  return body(line);
+}
+
+}  // namespace
+
 double parse_number(const std::string& text, const std::string& where) {
   double number = 0.0;
   if (read_whole(text, number) && std::isfinite(number)) return number;
@@ -86,16 +112,15 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near.empty() ? "" : "; did you mean " + near + "?";
 }
 
-std::string version_text(const std::string& tool) { return tool + " " + build_info().version; }
-
-int run_tool(const std::string& tool, const std::function<int()>& body) {
+int run_tool(Tool tool, int argc, const char* const* argv,
+             const std::function<int(const CommandLine&)>& body) {
   std::signal(SIGXFSZ, SIG_IGN);
   const auto fail = [&](const std::string& message, int code) {
-    std::cerr << tool << ": " << message << '\n';
+    std::cerr << tool.name << ": " << message << '\n';
     return code;
   };
   try {
-    const int code = body();
+    const int code = answer(tool, argc, argv, body);
     errno = 0;
     if (!std::cout.flush()) {
       const int reason = errno != 0 ? errno : EIO;  // an earlier write may have failed, its reason forgotten
@@ -103,7 +128,7 @@ int run_tool(const std::string& tool, const std::function<int()>& body) {
     }
     return code;
   } catch (const UsageError& error) {
-    return fail(std::string(error.what()) + " (see " + tool + " --help)", usage);
+    return fail(std::string(error.what()) + " (see " + tool.name + " --help)", usage);
   } catch (const SceneError& error) {
     return fail(error.what(), usage);
   } catch (const InvalidRun& error) {

@@ -13,13 +13,14 @@ namespace hompm::cli {
 
 /// What a tool hands back to the shell.
 enum ExitCode {
-  success = 0,      ///< done; for a comparison: identical or equivalent
-  internal = 1,     ///< a fault of ours
-  usage = 2,        ///< a bad command line or scene: nothing was computed or written
-  different = 3,    ///< a comparison found a difference
-  invalid_run = 4,  ///< the run stopped being valid
-  bad_file = 5,     ///< something could not be read or written
-  arithmetic = 6,   ///< this build or process does not compute as IEEE 754 says
+  success = 0,        ///< done; for a comparison: identical or equivalent
+  internal = 1,       ///< a fault of ours
+  usage = 2,          ///< a bad command line or scene: nothing was computed or written
+  different = 3,      ///< a comparison found a difference
+  invalid_run = 4,    ///< the run stopped being valid
+  bad_file = 5,       ///< something could not be read or written
+  arithmetic = 6,     ///< this build or process does not compute as IEEE 754 says
+  interrupted = 130,  ///< by a signal; the same command goes on
 };
 
 /// A command line that makes no sense; `what()` says why in one line.
@@ -33,11 +34,6 @@ struct CommandLine {
   boost::program_options::variables_map options;
   std::vector<std::string> arguments;  ///< what is not an option, in order
 };
-
-/// Reads the command line. Options must be written out: an abbreviation is an error like any unknown name,
-/// and the nearest known one is suggested. Throws `UsageError`.
-CommandLine read_command_line(int argc, const char* const* argv,
-                              const boost::program_options::options_description& options);
 
 /// The whole of `text` as a finite number. Throws `UsageError`, which begins with `where`, for anything else,
 /// "nan" and trailing characters included.
@@ -55,12 +51,21 @@ void warn(const std::string& message);
 /// "; did you mean <nearest>?", or nothing when no candidate is near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
-/// "<tool> <version>".
-std::string version_text(const std::string& tool);
+/// A tool as its --help tells it; --version and --help come with every one.
+struct Tool {
+  std::string name;
+  std::string synopsis;  ///< "usage: …" and what the tool does, before the list of options
+  boost::program_options::options_description options;
+  std::string remarks;           ///< behind the list: exit codes
+  bool takes_arguments = false;  ///< beside options
+};
 
-/// Runs the body of a main: turns what it throws into "<tool>: <message>" on standard error and an exit code,
+/// What a main does: reads the command line, answers --help, --version and an empty one, and calls `body` for
+/// the rest. Options must be written out: an abbreviation is an error like any unknown name, and the nearest
+/// known one is suggested. Turns what is thrown into "<tool>: <message>" on standard error and an exit code,
 /// and makes sure that all of standard output was written. A file size limit is an error to report, not a
 /// signal.
-int run_tool(const std::string& tool, const std::function<int()>& body);
+int run_tool(Tool tool, int argc, const char* const* argv,
+             const std::function<int(const CommandLine&)>& body);
 
 }  // namespace hompm::cli

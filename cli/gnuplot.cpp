@@ -70,9 +70,8 @@ std::optional<std::string> run_gnuplot(const std::string& script) {
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  std::string picture = output.content();
-  if (status != 0 || picture.empty()) throw FileError("gnuplot failed: " + first_lines(errors.content()));
-  return picture;
+  if (status != 0) throw FileError("gnuplot failed: " + first_lines(errors.content()));
+  return output.content();
 }
 
 }  // namespace hompm::cli

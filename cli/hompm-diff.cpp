@@ -16,7 +16,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,7 +33,6 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr const char* tool = "hompm-diff";
 using Words = std::vector<std::string>;
 
 po::options_description options() {
@@ -46,29 +44,28 @@ po::options_description options() {
       ("ulps", words("FIELD=N"), "… by N units in the last place")                                 //
       ("trace", "A and B are files of hompm-run --trace: say where the runs part first")           //
       ("json", "print one JSON object")                                                            //
-      ("quiet", "print nothing; only the exit code tells")                                         //
-      ("help", "print this help and exit")                                                         //
-      ("version", "print the version and exit");
-  return all;
+      ("quiet", "print nothing; only the exit code tells");
+  return all.add(hompm::cli::foreign_options());
 }
 
-std::string usage_text() {
-  std::ostringstream text;
-  text << "usage: hompm-diff [options] A B\n\n"
+hompm::cli::Tool this_tool() {
+  return {
+      .name = "hompm-diff",
+      .synopsis =
+          "usage: hompm-diff [options] A B\n\n"
           "Compares the results in the folder A with those in the folder B (the golden one) bit for bit;\n"
           "or the results of another code in the CSV file A with those in B and with the exact solution:\n\n"
-          "  hompm-diff --relative all=1e-2 --picture mine.svg mine.csv golden/bar-small-bspline\n\n"
-       << options() << '\n'
-       << hompm::cli::foreign_options()
-       << "\n"
+          "  hompm-diff --relative all=1e-2 --picture mine.svg mine.csv golden/bar-small-bspline\n",
+      .options = options(),
+      .remarks =
           "FIELD is a column of particles.csv, stress.csv or history.csv, or `all`, which goes for\n"
           "every field that is not named in another bound of the same kind. A value passes when it\n"
           "meets any of its bounds. Without bounds a single bit makes the two different.\n\n"
           "A CSV file needs the columns X, time and one of x, displacement, velocity, volume, density,\n"
           "stress, stretch, in any order; others are let pass. Particles are matched by X. Largest\n"
           "values are then those of all times, and only fields with a bound are judged, if any has one.\n\n"
-          "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read or write.\n";
-  return text.str();
+          "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read or write.\n",
+      .takes_arguments = true};
 }
 
 nlohmann::ordered_json json(const hompm::Difference& d) {
@@ -100,22 +97,8 @@ void print_json(const Words& folders, const hompm::Comparison& comparison) {
   std::cout << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
 }
 
-int compare(int argc, char** argv) {
+int compare(const po::variables_map& given, const Words& folders) {
   // 1. Read the command line.
-  if (argc < 2) {
-    std::cerr << usage_text();
-    return hompm::cli::usage;
-  }
-  const auto [given, folders] =
-      hompm::cli::read_command_line(argc, argv, options().add(hompm::cli::foreign_options()));
-  if (given.count("help") > 0) {
-    std::cout << usage_text();
-    return hompm::cli::success;
-  }
-  if (given.count("version") > 0) {
-    std::cout << hompm::cli::version_text(tool) << '\n';
-    return hompm::cli::success;
-  }
   if (folders.size() != 2) {
     throw hompm::cli::UsageError("two folders to compare are needed, not " + std::to_string(folders.size()));
   }
@@ -156,5 +139,7 @@ int compare(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return hompm::cli::run_tool(tool, [&] { return compare(argc, argv); });
+  return hompm::cli::run_tool(this_tool(), argc, argv, [](const auto& command_line) {
+    return compare(command_line.options, command_line.arguments);
+  });
 }

@@ -14,7 +14,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,22 +64,22 @@ po::options_description make_options() {
       "resume", text("FILE"), "go on from a checkpoint, in its folder unless --output is given")(
       "trace", text("FILE"), "write a hash of every field after every stage, for hompm-diff --trace")(
       "trace-values", text("STEP"), "with --trace: write all values from step STEP on (default 0), too")(
-      "list", "list cases, schemes, materials and effects")("version", "print the version")("help",
-                                                                                            "print this");
+      "list", "list cases, schemes, materials and effects");
   return options;
 }
 
-std::string usage_text(const po::options_description& options) {
-  std::ostringstream text;
-  text << "usage: hompm-run --case NAME [options]\n"
-          "       hompm-run --scene FILE [options]\n"
-          "       hompm-run --check GOLDEN [options]\n"
-          "       hompm-run --resume CHECKPOINT [options]\n\n"
-          "Runs a scene by the material point method and says how good the result is.\n\n"
-       << options
-       << "\nExit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became invalid,\n"
-          "5 cannot read or write, 6 this build or process does not compute as IEEE 754 says.\n";
-  return text.str();
+hompm::cli::Tool this_tool() {
+  return {.name = "hompm-run",
+          .synopsis =
+              "usage: hompm-run --case NAME [options]\n"
+              "       hompm-run --scene FILE [options]\n"
+              "       hompm-run --check GOLDEN [options]\n"
+              "       hompm-run --resume CHECKPOINT [options]\n\n"
+              "Runs a scene by the material point method and says how good the result is.\n",
+          .options = make_options(),
+          .remarks =
+              "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became invalid,\n"
+              "5 cannot read or write, 6 this build or process does not compute as IEEE 754 says.\n"};
 }
 
 fs::path output_folder(const po::variables_map& given, const hompm::Scene& scene) {
@@ -193,22 +192,7 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
   return hompm::cli::success;
 }
 
-int run_tool(int argc, char** argv) {
-  const auto options = make_options();
-  if (argc < 2) {
-    std::cerr << usage_text(options);
-    return hompm::cli::usage;
-  }
-  const auto [given, arguments] = hompm::cli::read_command_line(argc, argv, options);
-  if (!arguments.empty()) throw UsageError("`" + arguments.front() + "` is not an option");
-  if (given.count("help")) {
-    std::cout << usage_text(options);
-    return hompm::cli::success;
-  }
-  if (given.count("version")) {
-    std::cout << hompm::cli::version_text("hompm-run") << '\n';
-    return hompm::cli::success;
-  }
+int run(const po::variables_map& given) {
   if (given.count("list")) {
     std::cout << hompm::cli::catalogue_text();
     return hompm::cli::success;
@@ -224,5 +208,6 @@ int run_tool(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return hompm::cli::run_tool("hompm-run", [&] { return run_tool(argc, argv); });
+  return hompm::cli::run_tool(this_tool(), argc, argv,
+                              [](const auto& command_line) { return run(command_line.options); });
 }

@@ -11,7 +11,6 @@
 //                points; --list, --point, --times and --gather are its parts, for a workflow engine.
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -56,21 +55,21 @@ po::options_description make_options() {
       "list", "print the names of the points")("point", text("NAME"), "run this point only")(
       "times", "only take times of the points that were run")("gather", "only make tables and pictures anew")(
       "count", text("DIR"), "step from the states in DIR: what --point runs under callgrind")(
-      "quiet", "print nothing but errors")("version", "print the version")("help", "print this");
+      "quiet", "print nothing but errors");
   return options;
 }
 
-std::string usage_text(const po::options_description& options) {
-  std::ostringstream text;
-  text << "usage: hompm-study --case NAME [options]\n"
-          "       hompm-study --scene FILE [options]\n"
-          "       hompm-study --study FILE [options]\n\n"
-          "Runs a scene with many settings and says which is the cheapest for an error.\n\n"
-       << options
-       << "\nExit codes: 0 fine, 2 bad usage, scene or study, 4 no setting reaches the error, 5 cannot read "
-          "or\n"
-          "write, 130 interrupted: the same command goes on.\n";
-  return text.str();
+hompm::cli::Tool this_tool() {
+  return {.name = "hompm-study",
+          .synopsis =
+              "usage: hompm-study --case NAME [options]\n"
+              "       hompm-study --scene FILE [options]\n"
+              "       hompm-study --study FILE [options]\n\n"
+              "Runs a scene with many settings and says which is the cheapest for an error.\n",
+          .options = make_options(),
+          .remarks =
+              "Exit codes: 0 fine, 2 bad usage, scene or study, 4 no setting reaches the error,\n"
+              "5 cannot read or write, 130 interrupted: the same command goes on.\n"};
 }
 
 std::string text_option(const po::variables_map& given, const char* option) {
@@ -192,29 +191,14 @@ int run_study(const StudyJob& job, const po::variables_map& given) {
   } catch (const Interrupted&) {
     std::cerr << "hompm-study: interrupted with " << gathered_count(job) << " of " << job.points.size()
               << " points run; the same command goes on from there\n";
-    return 130;
+    return hompm::cli::interrupted;
   }
   if (advice) return advise(job, field, error);
   write_study_files(job);
   return success;
 }
 
-int run_tool(int argc, char** argv) {
-  const auto options = make_options();
-  if (argc < 2) {
-    std::cerr << usage_text(options);
-    return hompm::cli::usage;
-  }
-  const auto [given, arguments] = hompm::cli::read_command_line(argc, argv, options);
-  if (!arguments.empty()) throw UsageError("`" + arguments.front() + "` is not an option");
-  if (given.count("help")) {
-    std::cout << usage_text(options);
-    return hompm::cli::success;
-  }
-  if (given.count("version")) {
-    std::cout << hompm::cli::version_text("hompm-study") << '\n';
-    return hompm::cli::success;
-  }
+int run(const po::variables_map& given) {
   if (given.count("count")) {
     std::cout << "counted steps: " << study::step_from_moments(text_option(given, "count")) << '\n';
     return hompm::cli::success;
@@ -237,7 +221,7 @@ int run_tool(int argc, char** argv) {
     if (given.count("point")) hompm::cli::run_point(job, point_called(job, text_option(given, "point")));
     if (given.count("times")) hompm::cli::run_times(job, rounds_of(given));
   } catch (const hompm::cli::Interrupted&) {
-    return 130;
+    return hompm::cli::interrupted;
   }
   if (given.count("gather")) hompm::cli::write_study_files(job);
   return hompm::cli::success;
@@ -246,5 +230,6 @@ int run_tool(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return hompm::cli::run_tool("hompm-study", [&] { return run_tool(argc, argv); });
+  return hompm::cli::run_tool(this_tool(), argc, argv,
+                              [](const auto& command_line) { return run(command_line.options); });
 }

@@ -8,16 +8,20 @@
 #include <hompm/study/tables.hpp>
 
 #include "callgrind.hpp"
-#include "child.hpp"
+#include "gnuplot.hpp"
 
 namespace hompm::cli {
 namespace {
 
-/// Runs gnuplot on a script in its folder; false when there is none.
+/// Runs gnuplot on a script in its folder; false when there is none, or it fails.
 bool draw(const std::filesystem::path& folder, const std::string& script) {
   std::string place;  // in a text of gnuplot's a quote is written twice
   for (const char c : folder.string()) place += c == '\'' ? "''" : std::string(1, c);
-  return run_child({"gnuplot", "-e", "cd '" + place + "'", script}, "/dev/null", [] {}) == 0;
+  try {
+    return run_gnuplot("cd '" + place + "'\nload '" + script + "'\n").has_value();
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
 std::string title_of(const study::Study& study) {

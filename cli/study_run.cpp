@@ -19,7 +19,7 @@
 namespace hompm::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t stop_asked = 0;
 
 bool has_record(const StudyJob& job, const study::Point& point, const std::string& program) {
   const auto text = study::text_of(study::record_path(job.folder, point.name));
@@ -60,14 +60,14 @@ study::Times times_so_far(const StudyJob& job, const study::Record& record) {
 
 void catch_interruption() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_handler = [](int) { stop_asked = 1; };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
 void check_interruption() {
-  if (interrupted != 0) throw Interrupted();
+  if (stop_asked != 0) throw Interrupted();
 }
 
 bool run_point(const StudyJob& job, const study::Point& point) {
