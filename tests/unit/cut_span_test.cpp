@@ -56,6 +56,7 @@ template <int P>
 CutSpan measure(double cut, bool extended, bool on_the_left) {
   const State state = cut_state(P, cut, on_the_left);
   hompm::SchemeChoices choices;
+  choices.acceleration_mass = hompm::MassForm::consistent;
   choices.free_end = extended ? hompm::FreeEnd::extension : hompm::FreeEnd::cut_span;
   hompm::detail::SplineReconstruction<P, hompm::detail::MatchingSplines<P>, P + 1> mass(state, choices);
   mass.update_sites(state);

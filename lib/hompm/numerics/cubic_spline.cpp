@@ -11,10 +11,38 @@ CubicSplineSites::CubicSplineSites(std::size_t sites) : count_(sites) {
     array->resize(sites);
 }
 
+/// Right-hand sides 6 (secant after − secant before) of the inner sites, reduced row by row.
+class CubicSplineSites::Reduction {
+ public:
+  Reduction(const CubicSplineSites& sites, Fit& spline)
+      : y_(spline.values.data()),
+        inverse_width_(sites.inverse_width_.data()),
+        m_(spline.second_derivatives.data()) {}
+
+  void first_row() {
+    before_ = secant(1);
+    m_[1] = reduced_ = 6.0 * (before_ - secant(0));
+  }
+  void row(std::size_t i, double factor) {
+    const double after = secant(i);
+    m_[i] = reduced_ = 6.0 * (after - before_) - factor * reduced_;
+    before_ = after;
+  }
+
+ private:
+  [[nodiscard]] double secant(std::size_t i) const { return (y_[i + 1] - y_[i]) * inverse_width_[i]; }
+
+  const double* y_;
+  const double* inverse_width_;
+  double* m_;
+  double before_ = 0.0, reduced_ = 0.0;
+};
+
 // Unknowns are the second derivatives M_1 … M_{n−2} at the inner sites; not-a-knot gives M_0 and M_{n−1} from
 // them:
 //   M_0 = (1 + h_0/h_1) M_1 − (h_0/h_1) M_2, and its mirror image.
-std::size_t CubicSplineSites::factorise(std::span<const double> sites) {
+template <class Rows>
+std::size_t CubicSplineSites::eliminate(std::span<const double> sites, Rows rows) {
   std::copy(sites.begin(), sites.end(), sites_.begin());
   const std::size_t intervals = count_ - 1;
   const double* x = sites_.data();
@@ -32,7 +60,7 @@ std::size_t CubicSplineSites::factorise(std::span<const double> sites) {
   if (count_ < 4) return 0;
 
   const std::size_t last = count_ - 2;
-  double* eliminate = eliminate_.data();
+  double* factors = eliminate_.data();
   double* inverse_pivot = inverse_pivot_.data();
   double* above = above_.data();
   const auto diagonal = [width](std::size_t i) { return 2.0 * (width[i - 1] + width[i]); };
@@ -41,12 +69,14 @@ std::size_t CubicSplineSites::factorise(std::span<const double> sites) {
   double inverse = 1.0 / (diagonal(1) + width[0] * (1.0 + left));
   inverse_pivot[1] = inverse;
   above[1] = width[1] - width[0] * width[0] * inverse_width[1];
+  rows.first_row();
   const auto eliminate_row = [&](std::size_t i, double below, double on_diagonal) {
     const double factor = below * inverse;
     inverse = 1.0 / (on_diagonal - factor * above[i - 1]);
-    eliminate[i] = factor;
+    factors[i] = factor;
     inverse_pivot[i] = inverse;
     above[i] = width[i];
+    rows.row(i, factor);
   };
   for (std::size_t i = 2; i < last; ++i) eliminate_row(i, width[i - 1], diagonal(i));
   eliminate_row(last, width[last - 1] - width[last] * width[last] * inverse_width[last - 1],
@@ -54,36 +84,52 @@ std::size_t CubicSplineSites::factorise(std::span<const double> sites) {
   return 0;
 }
 
+std::size_t CubicSplineSites::factorise(std::span<const double> sites) {
+  struct {
+    void first_row() {}
+    void row(std::size_t, double) {}
+  } matrix_alone;
+  return eliminate(sites, matrix_alone);
+}
+
+std::size_t CubicSplineSites::factorise_and_fit(std::span<const double> sites, std::span<const double> values,
+                                                Fit& spline) {
+  spline.values = values;
+  const std::size_t bad = eliminate(sites, Reduction(*this, spline));
+  if (bad == 0) substitute_back(spline);
+  return bad;
+}
+
 void CubicSplineSites::fit(std::span<const double> values, Fit& spline) const {
   spline.values = values;
+  if (count_ >= 4) {
+    const double* factors = eliminate_.data();
+    Reduction reduction(*this, spline);
+    reduction.first_row();
+    for (std::size_t i = 2; i <= count_ - 2; ++i) reduction.row(i, factors[i]);
+  }
+  substitute_back(spline);
+}
+
+void CubicSplineSites::substitute_back(Fit& spline) const {
   std::vector<double>& result = spline.second_derivatives;
+  const auto secant = [&](std::size_t i) {
+    return (spline.values[i + 1] - spline.values[i]) * inverse_width_[i];
+  };
   if (count_ == 2) {
     result[0] = result[1] = 0.0;
     return;
   }
-  const auto slope = [&](std::size_t i) { return (values[i + 1] - values[i]) * inverse_width_[i]; };
   if (count_ == 3) {
-    const double curvature = 2.0 * (slope(1) - slope(0)) / (width_[0] + width_[1]);
+    const double curvature = 2.0 * (secant(1) - secant(0)) / (width_[0] + width_[1]);
     result[0] = result[1] = result[2] = curvature;
     return;
   }
   const std::size_t last = count_ - 2;
-  const double* y = values.data();
-  const double* inverse_width = inverse_width_.data();
-  const double* eliminate = eliminate_.data();
   const double* above = above_.data();
   const double* inverse_pivot = inverse_pivot_.data();
   double* m = result.data();
-  double before = slope(1);
-  double reduced = 6.0 * (before - slope(0));
-  m[1] = reduced;
-  for (std::size_t i = 2; i <= last; ++i) {
-    const double after = (y[i + 1] - y[i]) * inverse_width[i];
-    reduced = 6.0 * (after - before) - eliminate[i] * reduced;
-    m[i] = reduced;
-    before = after;
-  }
-  double next = reduced * inverse_pivot[last];
+  double next = m[last] * inverse_pivot[last];
   m[last] = next;
   for (std::size_t i = last - 1; i >= 1; --i) {
     next = (m[i] - above[i] * next) * inverse_pivot[i];
@@ -91,8 +137,8 @@ void CubicSplineSites::fit(std::span<const double> values, Fit& spline) const {
   }
   const double left = width_[0] * inverse_width_[1];
   const double right = width_[last] * inverse_width_[last - 1];
-  result[0] = (1.0 + left) * result[1] - left * result[2];
-  result[last + 1] = (1.0 + right) * result[last] - right * result[last - 1];
+  m[0] = (1.0 + left) * m[1] - left * m[2];
+  m[last + 1] = (1.0 + right) * m[last] - right * m[last - 1];
 }
 
 void CubicSplineSites::slopes(const Fit& spline, std::span<double> result) const {

@@ -30,6 +30,9 @@ class CubicSplineSites {
   };
   /// The spline through `values`, one per site.
   void fit(std::span<const double> values, Fit& spline) const;
+  /// `factorise`, then `fit`: the elimination of the values hides behind the divisions of the matrix'.
+  [[nodiscard]] std::size_t factorise_and_fit(std::span<const double> sites, std::span<const double> values,
+                                              Fit& spline);
 
   /// Where a point lies and what the four data around it weigh: the same for every data set on these sites.
   struct Weights {
@@ -66,6 +69,11 @@ class CubicSplineSites {
   void slopes(const Fit& spline, std::span<double> result) const;
 
  private:
+  class Reduction;
+  template <class Rows>
+  std::size_t eliminate(std::span<const double> sites, Rows rows);
+  void substitute_back(Fit& spline) const;
+
   std::size_t count_;
   std::vector<double> sites_;
   std::vector<double> width_;

@@ -73,6 +73,13 @@ class InterpolatingSplineSites {
     }
   }
 
+  [[nodiscard]] std::size_t factorise_and_fit(std::span<const double> sites, std::span<const double> values,
+                                              Fit& spline) {
+    const std::size_t bad = factorise(sites);
+    if (bad == 0) fit(values, spline);
+    return bad;
+  }
+
   /// The D + 1 B-splines that are not zero at a point; the first belongs to coefficient `interval`.
   struct Weights {
     std::size_t interval;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -50,27 +51,36 @@ class SplineSpace {
     const bool upper = at.s > 0.5;
     const double t = at.s - (upper ? 1.0 : 0.0);
     const double* c = pieces_.data() + (2 * piece_of_cell<P>(at.cell) + (upper ? 1 : 0)) * (n * n);
-    // Horner's rule, for all functions at a time.
-    std::array<double, n> value, slope;
-    for (std::size_t k = 0; k < n; ++k) {
-      slope[k] = c[P * n + k];
-      value[k] = slope[k] * t + c[(P - 1) * n + k];
-    }
-    for (std::size_t power = P - 1; power-- > 0;)
-      for (std::size_t k = 0; k < n; ++k) {
-        slope[k] = slope[k] * t + value[k];
-        value[k] = value[k] * t + c[power * n + k];
-      }
-    for (std::size_t k = 0; k < n; ++k) {
-      values[k] = value[k];
-      gradients[k] = slope[k] * inverse_width_;
-    }
+    for (std::size_t k = 0; k + 2 <= n; k += 2) horner<P, Pair>(c + k, t, values + k, gradients + k);
+    if constexpr (n % 2 == 1) horner<P, double>(c + P, t, values + P, gradients + P);
   }
 
   /// The same with the degree known only at run time; both spans hold degree + 1 numbers.
   void evaluate(Location at, std::span<double> values, std::span<double> gradients) const;
 
  private:
+  /// Two functions at a time: compilers do not find that out.
+  using Pair [[gnu::vector_size(16)]] = double;
+
+  /// Horner's rule for the functions side by side in a `Number`; `c` has a row of P + 1 for each power.
+  template <int P, class Number>
+  void horner(const double* c, double t, double* values, double* gradients) const {
+    const auto row = [c](std::size_t power) {
+      Number coefficient;
+      std::memcpy(&coefficient, c + power * (P + 1), sizeof coefficient);
+      return coefficient;
+    };
+    Number slope = row(P);
+    Number value = slope * t + row(P - 1);
+    for (std::size_t power = P - 1; power-- > 0;) {
+      slope = slope * t + value;
+      value = value * t + row(power);
+    }
+    slope *= inverse_width_;
+    std::memcpy(values, &value, sizeof value);
+    std::memcpy(gradients, &slope, sizeof slope);
+  }
+
   /// Cells share the piece `P − 1` but for those at the ends.
   template <int P>
   [[nodiscard]] std::size_t piece_of_cell(int cell) const {

@@ -32,8 +32,8 @@ class ConsistentMass {
   }
 
   void clear() { matrix_.clear(); }
-  /// Adds to M_ij and M_ji, j ≤ i; between `clear` and `factorise`.
-  void add(std::size_t i, std::size_t j, double amount) { matrix_.lower(i, i - j) += amount; }
+  /// M_ij and M_ji, j ≤ i, to add to between `clear` and `factorise`.
+  double& entry(std::size_t i, std::size_t j) { return matrix_.lower(i, i - j); }
 
   /// Functions begin … end − 1 touch material. `diagonal`, one entry per function or none, is added to the
   /// diagonal: of Cᵀ M C as Cᵀ diagonal, so that row sums change by it there, too; it is overwritten. Throws

@@ -64,7 +64,7 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
       Phase::geometry, "spline sites and Gauss points",
       [splines](State& state) { splines->update_sites(state); },
       "per particle: spline matrix; per Gauss point: position, weight, basis, data weights");
-  if (!consistent && choices.velocity_projection != VelocityProjection::consistent) return;
+  if (!detail::needs_density(choices)) return;
   builder.add(
       Phase::geometry, "density and consistent mass",
       [splines](State& state) {

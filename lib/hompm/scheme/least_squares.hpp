@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include <hompm/scheme/consistent_mass.hpp>
@@ -10,13 +11,13 @@
 namespace hompm::detail {
 
 /// The field q_i for which Σ_p w_p (Σ N_i q_i − q_p)² is least: (Σ_p w_p N_i N_j) q_j = Σ_p w_p N_i q_p, over
-/// the functions that no essential condition fixes. A projection to the last bit of arithmetic: fields of the
+/// the functions that no essential condition fixes. A projection to rounding: fields of the
 /// grid pass it unchanged, polynomials up to degree P among them, and a smooth one is off by O(h^{P+1})
 /// however coarse the particles are as a quadrature.
 ///
 /// w_p is the mass, so that the projection of the velocity never adds kinetic energy and keeps the momentum.
 /// Markers, which have none, get a tenth of their neighbour's: a polynomial of degree 4 that reaches beyond
-/// the last particle to the end of the body is otherwise known too poorly (docs/method.md). With
+/// the last particle to the end of the body is otherwise known too poorly (docs/high-order.md). With
 /// `Conserve::momentum` they get none.
 template <int P>
 class LeastSquares {
@@ -33,17 +34,29 @@ class LeastSquares {
   void update(const State& state) {
     normal_.clear();
     constexpr std::size_t stencil = P + 1;
-    const auto& first = state.basis.first;
-    for (std::size_t p = 0; p < weight_.size(); ++p) {
-      const double* n = &state.basis.values[p * stencil];
-      const auto f = static_cast<std::size_t>(first[p]);
-      for (std::size_t i = 0; i < stencil; ++i) {
-        const double weighted = weight_[p] * n[i];
-        for (std::size_t j = 0; j <= i; ++j) normal_.add(f + i, f + j, weighted * n[j]);
-      }
+    const std::size_t count = weight_.size();
+    const std::int32_t* first = state.basis.first.data();
+    const double* weight = weight_.data();
+    const double* n = state.basis.values.data();
+    for (std::size_t p = 0; p < count;) {
+      const std::int32_t cell = first[p];
+      const auto f = static_cast<std::size_t>(cell);
+      double block[stencil][stencil];
+      for (std::size_t i = 0; i < stencil; ++i)
+        for (std::size_t j = 0; j <= i; ++j) block[i][j] = normal_.entry(f + i, f + j);
+      do {
+        for (std::size_t i = 0; i < stencil; ++i) {
+          const double weighted = weight[p] * n[i];
+          for (std::size_t j = 0; j <= i; ++j) block[i][j] += weighted * n[j];
+        }
+        n += stencil;
+        ++p;
+      } while (p < count && first[p] == cell);
+      for (std::size_t i = 0; i < stencil; ++i)
+        for (std::size_t j = 0; j <= i; ++j) normal_.entry(f + i, f + j) = block[i][j];
     }
-    normal_.factorise(state, static_cast<std::size_t>(first.front()),
-                      static_cast<std::size_t>(first.back()) + stencil);
+    normal_.factorise(state, static_cast<std::size_t>(first[0]),
+                      static_cast<std::size_t>(first[count - 1]) + stencil);
   }
 
   /// The field for one entry of `data` per particle. Returns what fixed ends add to Σ w_p q_p.

@@ -145,11 +145,7 @@ void join_motion(const Material& material, PlanBuilder& builder) {
     return;
   }
   builder.add(Phase::motion, "displacement", [](State& state) {
-    const std::size_t count = state.particles.size();
-    double* u = state.particles.displacement.data();
-    const double drift = state.drift;
-    const Gather<P> velocity(state, state.basis.values, state.fields.velocity);
-    for (std::size_t p = 0; p < count; ++p) u[p] += drift * velocity(p);
+    add_at_particles<P>(state, state.drift, state.fields.velocity, state.particles.displacement);
   });
   if (choices.quadrature == Quadrature::reconstructed_exact)
     join_stretch_from_positions<MatchingSplines<P>, kinematics>(material, builder);

@@ -72,4 +72,14 @@ class Gather {
   const double* field_;
 };
 
+/// q_p += factor Σ_i N_i(x_p) field_i for every particle.
+template <int P>
+void add_at_particles(const State& state, double factor, const std::vector<double>& field,
+                      std::vector<double>& target) {
+  const std::size_t count = target.size();
+  double* q = target.data();
+  const Gather<P> at(state, state.basis.values, field);
+  for (std::size_t p = 0; p < count; ++p) q[p] += factor * at(p);
+}
+
 }  // namespace hompm::detail

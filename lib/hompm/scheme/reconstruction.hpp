@@ -11,13 +11,20 @@
 
 namespace hompm::detail {
 
+/// Whether a consistent mass is part of the scheme, and the spline through the densities with it.
+inline bool needs_density(const SchemeChoices& choices) {
+  return choices.acceleration_mass == MassForm::consistent ||
+         choices.velocity_projection == VelocityProjection::consistent;
+}
+
 /// What stages need of a reconstruction, whatever degree and splines it is made of.
 class Reconstruction {
  public:
   virtual ~Reconstruction() = default;
-  /// Splines and Gauss points for the present positions. Throws `InvalidRun` for particles out of order.
+  /// Splines and Gauss points for the present positions, and the spline through the densities where the
+  /// scheme needs it. Throws `InvalidRun` for particles out of order.
   virtual void update_sites(const State& state) = 0;
-  /// ρ(x_g) w_g from the spline through the particle densities, shifted in each cell where the scheme keeps
+  /// ρ(x_g) w_g from that spline, shifted in each cell where the scheme keeps
   /// cell masses. Throws `InvalidRun` where the density is not positive.
   virtual void update_density(const State& state) = 0;
   /// M_ij = Σ_g w_g ρ N_i N_j, factorised (consistent_mass.hpp). Where the scheme keeps momentum the diagonal
@@ -44,17 +51,22 @@ class SplineReconstruction final : public Reconstruction {
   SplineReconstruction(const State& state, const SchemeChoices& choices)
       : splines_(state.particles.size()),
         fit_(state.particles.size()),
+        density_fit_(needs_density(choices) ? state.particles.size() : 0),
         gauss_(state.grid),
         weights_(gauss_.capacity()),
         mass_weight_(gauss_.capacity()),
-        density_(state.particles.size()),
+        density_(needs_density(choices) ? state.particles.size() : 0),
         cell_mass_(choices.conserve == Conserve::cell_mass ? gauss_.cells() : 0),
         missing_(choices.conserve == Conserve::momentum ? state.fields.mass.size() : 0),
         mass_(state, choices.free_end == FreeEnd::extension),
         conserve_(choices.conserve) {}
 
   void update_sites(const State& state) override {
-    if (const std::size_t bad = splines_.factorise(state.particles.position)) throw_out_of_order(state, bad);
+    const auto& sites = state.particles.position;
+    for (std::size_t i = 0; i < density_.size(); ++i) density_[i] = state.density(i);
+    const std::size_t bad = density_.empty() ? splines_.factorise(sites)
+                                             : splines_.factorise_and_fit(sites, density_, density_fit_);
+    if (bad != 0) throw_out_of_order(state, bad);
     gauss_.cover(state.grid, state.left_boundary, state.right_boundary);
     std::size_t interval = 0;
     for (std::size_t g = gauss_.begin(); g < gauss_.end(); ++g) {
@@ -64,13 +76,12 @@ class SplineReconstruction final : public Reconstruction {
   }
 
   void update_density(const State& state) override {
-    for (std::size_t i = 0; i < density_.size(); ++i) density_[i] = state.density(i);
-    splines_.fit(density_, fit_);
+    bool positive = true;
     for (std::size_t g = gauss_.begin(); g < gauss_.end(); ++g) {
-      const double density = splines_.evaluate(weights_[g], fit_);
-      if (!(density > 0.0)) throw_negative_density(state, gauss_.position(g), density);
-      mass_weight_[g] = density * gauss_.weight(g);
+      mass_weight_[g] = splines_.evaluate(weights_[g], density_fit_) * gauss_.weight(g);
+      positive &= mass_weight_[g] > 0.0;
     }
+    if (!positive) throw_first_negative_density(state);
     if (conserve_ == Conserve::cell_mass) keep_cell_masses(state);
   }
 
@@ -87,7 +98,7 @@ class SplineReconstruction final : public Reconstruction {
       });
       const auto first = static_cast<std::size_t>(cell);
       for (std::size_t i = 0; i <= P; ++i)
-        for (std::size_t j = 0; j <= i; ++j) mass_.add(first + i, first + j, block[i][j]);
+        for (std::size_t j = 0; j <= i; ++j) mass_.entry(first + i, first + j) += block[i][j];
     }
     const auto begin = static_cast<std::size_t>(gauss_.first_cell());
     const auto end = static_cast<std::size_t>(gauss_.last_cell()) + P + 1;
@@ -181,6 +192,13 @@ class SplineReconstruction final : public Reconstruction {
     }
   }
 
+  void throw_first_negative_density(const State& state) const {
+    for (std::size_t g = gauss_.begin(); g < gauss_.end(); ++g) {
+      const double density = splines_.evaluate(weights_[g], density_fit_);
+      if (!(density > 0.0)) throw_negative_density(state, gauss_.position(g), density);
+    }
+  }
+
   void shift_density(const State& state, int begin, int last, double mass) {
     const auto from = static_cast<std::size_t>(begin) * Points::per_cell;
     const auto to = static_cast<std::size_t>(last + 1) * Points::per_cell;
@@ -198,6 +216,7 @@ class SplineReconstruction final : public Reconstruction {
 
   Splines splines_;
   typename Splines::Fit fit_;
+  typename Splines::Fit density_fit_;
   Points gauss_;
   std::vector<typename Splines::Weights> weights_;
   std::vector<double> mass_weight_;

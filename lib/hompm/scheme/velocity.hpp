@@ -51,11 +51,7 @@ void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstructio
     });
   }
   builder.add(Phase::acceleration, "particle velocity (FLIP)", [](State& state) {
-    const std::size_t count = state.particles.size();
-    double* velocity = state.particles.velocity.data();
-    const double kick = state.kick;
-    const Gather<P> acceleration(state, state.basis.values, state.fields.acceleration);
-    for (std::size_t p = 0; p < count; ++p) velocity[p] += kick * acceleration(p);
+    add_at_particles<P>(state, state.kick, state.fields.acceleration, state.particles.velocity);
   });
 }
 
