@@ -29,7 +29,8 @@ body.length = 1
 material = { law = "hencky", density = 1000, youngs_modulus = 1e5 }
 ends.right = "free"
 effect = [ { type = "gravity", acceleration = -9.81 }, { type = "traction", value = 10 },
-           { type = "mass-damping", rate = 1 }, { type = "local-damping", coefficient = 0.1 } ]
+           { type = "mass-damping", rate = 1 }, { type = "local-damping", coefficient = 0.1 },
+           { type = "viscosity", viscosity = 1 }, { type = "bulk-viscosity" } ]
 scheme = { name = ")" + scheme.name + R"(", cells = 16, particles_per_cell = 4, time_step = 1e-4 })",
                                         "allocation test", {});
   hompm::Simulation simulation(scene, 1e-4);

@@ -11,5 +11,7 @@ EffectType gravity();
 EffectType traction();
 EffectType mass_damping();
 EffectType local_damping();
+EffectType viscosity();
+EffectType bulk_viscosity();
 
 }  // namespace hompm::detail

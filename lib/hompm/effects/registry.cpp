@@ -3,14 +3,25 @@
 
 namespace hompm {
 
-const std::vector<EffectType>& effect_catalogue() {
-  static const std::vector<EffectType> catalogue{
-      detail::gravity(),
-      detail::traction(),
-      detail::mass_damping(),
-      detail::local_damping(),
+const EffectCatalogue& effect_catalogue() {
+  static const EffectCatalogue catalogue{
+      detail::gravity(),       detail::traction(),  detail::mass_damping(),
+      detail::local_damping(), detail::viscosity(), detail::bulk_viscosity(),
   };
   return catalogue;
+}
+
+const EffectType& find_effect(const EffectSpec& spec) {
+  for (const EffectType& type : effect_catalogue())
+    if (type.name == spec.type) return type;
+  throw SceneError(spec.origin, "there is no effect " + spec.type);
+}
+
+double viscous_time(const Scene& scene) {
+  double sum = 0.0;
+  for (const EffectSpec& spec : scene.effects)
+    if (const auto time = find_effect(spec).viscous_time; time != nullptr) sum += time(spec, scene);
+  return sum;
 }
 
 }  // namespace hompm

@@ -12,6 +12,8 @@
 namespace hompm {
 
 struct PlanBuilder;
+struct EffectType;
+using EffectCatalogue = std::vector<EffectType>;
 
 /// One parameter of an effect, as a scene may give it.
 struct EffectParameter {
@@ -32,9 +34,19 @@ struct EffectType {
   std::vector<EffectParameter> parameters;
   /// Adds the stages of the effect to a plan.
   void (*join)(const EffectSpec& spec, PlanBuilder& plan);
+  /// Why the effect does not go with the rest of the scene; "" where it does.
+  std::string (*conflict)(const EffectSpec& spec, const Scene& scene) = nullptr;
+  /// τ (s) where the effect adds the stress E τ ∂v/∂x to a small motion: the critical step falls with it.
+  double (*viscous_time)(const EffectSpec& spec, const Scene& scene) = nullptr;
 };
 
 /// All effects, in the order in which `--list` shows them.
-const std::vector<EffectType>& effect_catalogue();
+const EffectCatalogue& effect_catalogue();
+
+/// The row of the catalogue that an effect of the scene means. Throws `SceneError` where there is none.
+const EffectType& find_effect(const EffectSpec& spec);
+
+/// What `viscous_time` of all effects of the scene comes to (s).
+double viscous_time(const Scene& scene);
 
 }  // namespace hompm

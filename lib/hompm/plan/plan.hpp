@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,8 +15,8 @@ namespace hompm {
 
 /// The parts of a step, in the order in which they run.
 enum class Phase {
-  geometry,        ///< what depends on the positions alone: once per run with infinitesimal kinematics
-  end_stress,      ///< stresses applied at the ends, for schemes that ask for them
+  geometry,    ///< what depends on the positions alone: once per run with infinitesimal kinematics
+  end_stress,  ///< stresses applied at the ends, for schemes that ask for them, and beside that of the law
   internal_force,  ///< sets force = −f_int
   external_force,  ///< effects add to the force
   damping_force,   ///< effects that need the whole out-of-balance force
@@ -37,6 +38,8 @@ struct Plan {
   std::array<std::vector<Stage>, static_cast<std::size_t>(Phase::count_)> phases;
   /// Potential energies (J/m²) of the loads that have one.
   std::vector<std::function<double(const State&)>> potentials;
+  /// Each adds to one stress (Pa) per particle what acts beside that of the law.
+  std::vector<std::function<void(const State&, std::vector<double>&)>> extra_stresses;
 
   [[nodiscard]] const std::vector<Stage>& operator[](Phase phase) const {
     return phases[static_cast<std::size_t>(phase)];
@@ -57,6 +60,10 @@ struct PlanBuilder {
   /// Sets GridFields::momentum to ∫ρ v N_i of the grid velocity; empty where the scheme's projection has done
   /// so.
   std::function<void(State&)> update_momentum = {};
+  /// Sets one ∂v/∂x (1/s) per particle, of the grid velocity.
+  std::function<void(const State&, std::vector<double>&)> velocity_gradient = {};
+  /// The stress of the law while effects add to it; of the first effect that does.
+  std::shared_ptr<std::vector<double>> law_stress = {};
 
   void add(Phase phase, std::string name, std::function<void(State&)> run, std::string arrays = {}) {
     plan.phases[static_cast<std::size_t>(phase)].push_back(

@@ -9,6 +9,8 @@ std::optional<Loads> loads_of(const Scene& scene) {
       loads.gravity.push_back({effect.number("acceleration"), amplitude_of(effect)});
     } else if (effect.type == "mass-damping") {
       loads.damping_rate += effect.number("rate");
+    } else if (effect.type == "viscosity") {
+      loads.viscosity += effect.number("viscosity");
     } else if (effect.type == "local-damping") {
       loads.local_damping = true;
     } else if (effect.type == "traction") {

@@ -23,13 +23,16 @@ std::optional<double> final_total(const std::vector<Load>& loads);
 struct Loads {
   std::vector<Load> gravity;
   double damping_rate = 0.0;   ///< 1/s, of the mass-proportional damping −β ρ0 v
+  double viscosity = 0.0;      ///< Pa s, η of the stress η ∂v/∂x
   bool local_damping = false;  ///< non-viscous damping, which no differential equation describes
   std::vector<Load> left;      ///< at the end X = 0, if it is free
   std::vector<Load> right;     ///< at the end X = length, if it is free
+
+  [[nodiscard]] bool damped() const { return damping_rate != 0.0 || viscosity != 0.0; }
 };
 
 /// The loads of a scene, or nothing if it has an effect that is none of gravity, traction, mass-damping,
-/// local-damping.
+/// local-damping, viscosity.
 std::optional<Loads> loads_of(const Scene& scene);
 
 }  // namespace hompm

@@ -80,7 +80,7 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
       std::ranges::all_of(loads.gravity, [](const Load& load) { return load.amplitude.constant(); });
   const bool pulled = std::ranges::any_of(loads.right, [](const Load& load) { return load.value != 0.0; });
   const double acceleration = weight.value_or(0.0);
-  const bool only_gravity = acceleration != 0.0 && loads.damping_rate == 0.0 && !pulled;
+  const bool only_gravity = acceleration != 0.0 && !loads.damped() && !pulled;
   if (!only_gravity || !constant || loads.local_damping || scene.initial_velocity) return std::nullopt;
   const double speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
   if (scene.material.law == "linear") {
@@ -99,7 +99,7 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
 }
 
 std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads) {
-  const bool free = loads.gravity.empty() && loads.damping_rate == 0.0;
+  const bool free = loads.gravity.empty() && !loads.damped();
   if (scene.material.law != "linear" || !free || !scene.initial_velocity) return std::nullopt;
   const LinearBody body{scene.body.length, scene.material.density,
                         std::sqrt(scene.material.youngs_modulus / scene.material.density)};

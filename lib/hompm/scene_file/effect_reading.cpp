@@ -70,6 +70,15 @@ void check_end(Reading& reading, const EffectSpec& effect, const std::string& pa
 
 }  // namespace
 
+void check_effects(Reading& reading) {
+  for (const EffectSpec& effect : reading.scene.effects) {
+    const EffectType& type = find_effect(effect.type);
+    if (type.conflict == nullptr || effect.parameters.size() < type.parameters.size()) continue;
+    if (const std::string reason = type.conflict(effect, reading.scene); !reason.empty())
+      reading.report(effect.origin, "the effect " + effect.type + " does not go with this scene: " + reason);
+  }
+}
+
 void read_effects(Reading& reading) {
   const ValueRule rule = type_rule();
   for (std::size_t index = 0; !reading.silent_on(effect_path(index)); ++index) {

@@ -95,6 +95,7 @@ Scene parse_scene(const std::string& text, const std::string& source,
   detail::read_keys(reading);
   detail::read_effects(reading);
   detail::complete(reading);
+  detail::check_effects(reading);
   if (!reading.problems.empty()) {
     detail::sort_by_position(reading.problems, source);
     throw SceneError(std::move(reading.problems));

@@ -39,6 +39,9 @@ void read_keys(Reading& reading);
 /// Fills `scene.effects` from the effect catalogue.
 void read_effects(Reading& reading);
 
+/// Reports effects that do not go with the rest of the scene, once that is complete.
+void check_effects(Reading& reading);
+
 /// Derives the defaults that follow from other keys, and checks the keys against each other.
 void complete(Reading& reading);
 

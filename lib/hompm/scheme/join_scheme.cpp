@@ -119,6 +119,10 @@ void join(const Material& material, PlanBuilder& builder) {
   const auto least_squares = relaxes || choices.velocity_projection == VelocityProjection::least_squares
                                  ? std::make_shared<detail::LeastSquares<P>>(builder.state, choices)
                                  : nullptr;
+  builder.velocity_gradient = [](const State& state, std::vector<double>& gradient) {
+    const detail::Gather<P> at(state, state.basis.gradients, state.fields.velocity);
+    for (std::size_t p = 0; p < gradient.size(); ++p) gradient[p] = at(p);
+  };
   join_geometry<P>(builder, splines, least_squares);
   join_forces<P>(builder, splines);
   detail::join_velocity<P>(builder, splines, least_squares);

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -33,12 +32,9 @@ Plan make_plan(const Scene& scene, const State& state) {
   builder.called_by = "scheme " + scene.scheme.name;
   join_scheme(make_material(scene.material), builder);
   for (const EffectSpec& spec : scene.effects) {
-    const auto& catalogue = effect_catalogue();
-    const auto type =
-        std::find_if(catalogue.begin(), catalogue.end(), [&](const auto& t) { return t.name == spec.type; });
-    if (type == catalogue.end()) throw SceneError(spec.origin, "there is no effect " + spec.type);
+    const EffectType& type = find_effect(spec);
     builder.called_by = "effect " + spec.type + " (" + spec.origin.text() + ")";
-    type->join(spec, builder);
+    type.join(spec, builder);
   }
   return builder.plan;
 }
@@ -108,7 +104,9 @@ Snapshot Simulation::snapshot(double time) const {
   s.displacement = reported(p.displacement);
   s.velocity = reported(p.velocity);
   s.volume = reported(p.volume);
-  s.stress = reported(p.stress);
+  std::vector<double> stress = p.stress;
+  for (const auto& add : plan_.extra_stresses) add(state, stress);
+  s.stress = reported(stress);
   s.stretch = reported(p.stretch);
   for (std::size_t i = p.markers; i < p.size() - p.markers; ++i) {
     s.position.push_back(p.reference_position[i] + p.displacement[i]);

@@ -1,0 +1,54 @@
+#include <cmath>
+
+#include <hompm/effects/effects.hpp>
+#include <hompm/effects/viscous_stress.hpp>
+
+namespace hompm::detail {
+namespace {
+
+double wave_speed(const Scene& scene) {
+  return std::sqrt(scene.material.youngs_modulus / scene.material.density);
+}
+
+double cell_width(const Scene& scene) { return scene.body.length / scene.scheme.cells; }
+
+/// −ρ h |∂v/∂x| (a₂ h |∂v/∂x| + a₁ c) where the material is compressed, nothing elsewhere: a shock becomes
+/// some cells wide, whatever its strength (von Neumann, Richtmyer 1950; the linear part: Landshoff 1955).
+void join(const EffectSpec& spec, PlanBuilder& builder) {
+  const double h = cell_width(builder.scene);
+  const double quadratic = spec.number("quadratic") * h * h;
+  const double linear = spec.number("linear") * h * wave_speed(builder.scene);
+  join_viscous_stress(builder, "bulk viscosity",
+                      [quadratic, linear](const State& state, std::size_t p, double rate) {
+                        return rate < 0.0 ? state.density(p) * rate * (linear - quadratic * rate) : 0.0;
+                      });
+}
+
+/// A jump over a cell is at most the speed at the start, as far as the scene says it.
+double relaxation(const EffectSpec& spec, const Scene& scene) {
+  const double c = wave_speed(scene);
+  const double jump = scene.initial_velocity ? std::abs(scene.initial_velocity->amplitude) : 0.0;
+  return (spec.number("linear") + spec.number("quadratic") * jump / c) * cell_width(scene) / c;
+}
+
+}  // namespace
+
+EffectType bulk_viscosity() {
+  return {.name = "bulk-viscosity",
+          .meaning = "artificial viscosity of compression, which spreads shocks over some cells",
+          .parameters = {{.name = "quadratic",
+                          .unit = "-",
+                          .meaning = "coefficient of the square of the velocity jump over a cell",
+                          .minimum = 0.0,
+                          .default_value = 2.0},
+                         {.name = "linear",
+                          .unit = "-",
+                          .meaning = "coefficient of that jump times the wave speed",
+                          .minimum = 0.0,
+                          .default_value = 0.5}},
+          .join = join,
+          .conflict = needs_forward_kicks,
+          .viscous_time = relaxation};
+}
+
+}  // namespace hompm::detail
