@@ -13,5 +13,6 @@ EffectType mass_damping();
 EffectType local_damping();
 EffectType viscosity();
 EffectType bulk_viscosity();
+EffectType manufactured();
 
 }  // namespace hompm::detail

@@ -5,8 +5,13 @@ namespace hompm {
 
 const EffectCatalogue& effect_catalogue() {
   static const EffectCatalogue catalogue{
-      detail::gravity(),       detail::traction(),  detail::mass_damping(),
-      detail::local_damping(), detail::viscosity(), detail::bulk_viscosity(),
+      detail::gravity(),         //
+      detail::traction(),        //
+      detail::mass_damping(),    //
+      detail::local_damping(),   //
+      detail::viscosity(),       //
+      detail::bulk_viscosity(),  //
+      detail::manufactured(),    //
   };
   return catalogue;
 }
@@ -15,6 +20,11 @@ const EffectType& find_effect(const EffectSpec& spec) {
   for (const EffectType& type : effect_catalogue())
     if (type.name == spec.type) return type;
   throw SceneError(spec.origin, "there is no effect " + spec.type);
+}
+
+void prepare_effects(const Scene& scene, State& state) {
+  for (const EffectSpec& spec : scene.effects)
+    if (const auto prepare = find_effect(spec).prepare; prepare != nullptr) prepare(spec, scene, state);
 }
 
 double viscous_time(const Scene& scene) {

@@ -12,6 +12,7 @@
 namespace hompm {
 
 struct PlanBuilder;
+struct State;
 struct EffectType;
 using EffectCatalogue = std::vector<EffectType>;
 
@@ -38,6 +39,8 @@ struct EffectType {
   std::string (*conflict)(const EffectSpec& spec, const Scene& scene) = nullptr;
   /// τ (s) where the effect adds the stress E τ ∂v/∂x to a small motion: the critical step falls with it.
   double (*viscous_time)(const EffectSpec& spec, const Scene& scene) = nullptr;
+  /// Changes the state at t = 0, before the plan is made: fields that only this effect needs, initial values.
+  void (*prepare)(const EffectSpec& spec, const Scene& scene, State& state) = nullptr;
 };
 
 /// All effects, in the order in which `--list` shows them.
@@ -45,6 +48,9 @@ const EffectCatalogue& effect_catalogue();
 
 /// The row of the catalogue that an effect of the scene means. Throws `SceneError` where there is none.
 const EffectType& find_effect(const EffectSpec& spec);
+
+/// `EffectType::prepare` of all effects of the scene.
+void prepare_effects(const Scene& scene, State& state);
 
 /// What `viscous_time` of all effects of the scene comes to (s).
 double viscous_time(const Scene& scene);

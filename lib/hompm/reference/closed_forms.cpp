@@ -45,4 +45,20 @@ ReferenceFields loaded_column(const LinearBody& body, double acceleration, doubl
   return fields;
 }
 
+ReferenceFields manufactured_bar(const LinearBody& body, const Material& material, double amplitude,
+                                 double time, std::span<const double> X) {
+  const double phase = body.wave_speed * time / body.length;  // over π
+  const double displacement = amplitude * numerics::sin_pi(phase);
+  const double velocity = amplitude * numerics::pi * body.wave_speed / body.length * numerics::cos_pi(phase);
+  ReferenceFields fields;
+  for (const double x : X) {
+    const double sine = numerics::sin_pi(x / body.length);
+    const double strain = displacement * numerics::pi / body.length * numerics::cos_pi(x / body.length);
+    fields.displacement.push_back(displacement * sine);
+    fields.velocity.push_back(velocity * sine);
+    fields.stress.push_back(std::visit([&](const auto& law) { return law.stress(1.0 + strain); }, material));
+  }
+  return fields;
+}
+
 }  // namespace hompm

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include <hompm/materials/material.hpp>
 #include <hompm/reference/reference.hpp>
 
 namespace hompm {
@@ -25,5 +26,10 @@ ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode
 /// with the period 4L/c. Seen by a freely falling observer it is the base that moves, and sends out waves.
 ReferenceFields loaded_column(const LinearBody& body, double acceleration, double time,
                               std::span<const double> X);
+
+/// u = amplitude sin(πX/L) sin(πct/L), the solution of the effect `manufactured` (amplitude in m), for any
+/// law.
+ReferenceFields manufactured_bar(const LinearBody& body, const Material& material, double amplitude,
+                                 double time, std::span<const double> X);
 
 }  // namespace hompm

@@ -109,9 +109,23 @@ std::optional<Reference> vibration_reference(const Scene& scene, const Loads& lo
   return exact("vibrating bar of small strains, standing wave (Tielen et al. 2017)", at);
 }
 
+/// Where the scene has the effect `manufactured` and no other.
+std::optional<Reference> manufactured_reference(const Scene& scene) {
+  if (scene.effects.size() != 1 || scene.effects.front().type != "manufactured") return std::nullopt;
+  const LinearBody body{scene.body.length, scene.material.density,
+                        std::sqrt(scene.material.youngs_modulus / scene.material.density)};
+  const auto at = [body, material = make_material(scene.material),
+                   amplitude = scene.effects.front().number("amplitude")](double time,
+                                                                          std::span<const double> X) {
+    return manufactured_bar(body, material, amplitude, time, X);
+  };
+  return exact("manufactured solution u = G sin(pi X/L) sin(pi c t/L)", at);
+}
+
 }  // namespace
 
 std::optional<Reference> make_reference(const Scene& scene) {
+  if (auto manufactured = manufactured_reference(scene)) return manufactured;
   const std::optional<Loads> loads = loads_of(scene);
   if (!loads) return std::nullopt;
   if (scene.kinematics == Kinematics::infinitesimal && scene.material.law != "linear") return std::nullopt;

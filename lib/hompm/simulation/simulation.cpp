@@ -24,6 +24,12 @@ void check_particle_count(const SchemeSpec& scheme) {
                        " reconstructs fields from at least " + std::to_string(fewest));
 }
 
+State start_of(const Scene& scene) {
+  State state = initial_state(scene);
+  prepare_effects(scene, state);
+  return state;
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, const State& state) {
@@ -42,7 +48,7 @@ Plan make_plan(const Scene& scene, const State& state) {
 Simulation::Simulation(const Scene& scene, double time_step)
     : material_(make_material(scene.material)),
       splitting_(splitting(scene.scheme.choices.time_integrator)),
-      state_(initial_state(scene)),
+      state_(start_of(scene)),
       plan_(make_plan(scene, state_)) {
   state_.time_step = time_step;
   try {
