@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Breaks the library in small ways, one at a time, and counts how often the unit tests notice.
+"""Breaks the library in small ways, one at a time, and counts how often the tests notice.
 
     coverage/mutate.py [--count N] [--room ROOM ...] [--seconds S] [--again]     runs mutants, writes the table
     coverage/mutate.py --list                                                    prints the mutants that would run
@@ -8,14 +8,15 @@
 
 The mutants are drawn by a fixed seed and named by what they change, so the same code gives the same sample. Results are kept
 in coverage/mutation.json; what is there is not run again without --again. Reasons for survivors stand in
-coverage/survivors.toml. Works on a copy of the tree in build/mutation. Exit code 1: a survivor without a reason, or a kill
-rate below the threshold.
+coverage/survivors.toml. Works on a copy of the tree in build/mutation, built once with all mutants in it, each behind a
+switch; a mutant is then run against the tests that reach it, the shortest first, until one fails. Exit code 1: a survivor
+without a reason, or a kill rate below the threshold.
 """
 import argparse
 import collections
-import dataclasses
-import hashlib
+import concurrent.futures
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -24,151 +25,189 @@ import sys
 import time
 import tomllib
 
+sys.dont_write_bytecode = True
+from mutants import digest, mutants_of_file, with_switches  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutation"
 TREE, BUILD = WORK / "tree", WORK / "build"
 RESULTS, REASONS, TABLE = (ROOT / "coverage" / name for name in ("mutation.json", "survivors.toml", "mutation.md"))
 SEED = "hompm 1"
-COUNT = 150
+COUNT = 200
 LEAST_KILLED = 90.0
-ROOMS = ["numerics", "materials", "plan", "effects", "scheme", "simulation", "scene_file", "output", "verify"]
-FEW = 12  # a header that more translation units include takes too long to compile
+FEW = 12  # a header that more translation units include takes too long to compile for one mutant
+LONG = 10.0  # seconds: tests that take longer are left out, as those of long runs are that check no more than shorter ones
 DONE = ("killed", "survived")
+PROGRAMS = ["test_unit", "test_cli"]
+NOT_RUN = ("counted steps", "instructions repeat")  # under callgrind
+SWITCH = """// Which mutant is in force, and which were asked about: HOMPM_MUTANT, and a file HOMPM_REACHED with a byte for each.
+#include <cstdlib>
+#include <fcntl.h>
+#include <sys/mman.h>
 
-# Formatted code has blanks around binary operators, and none in template brackets.
-SWAPS = {
-    "arithmetic": {" + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " += ": " -= ", " -= ": " += ", " *= ": " /= ",
-                   " /= ": " *= "},
-    "comparison": {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ", " && ": " || ",
-                   " || ": " && "},
-    "sign": {"(-": "(", " = -": " = ", "return -": "return ", ", -": ", ", " * -": " * "},
+int hompm_mutant_in_force = 0;
+static unsigned char nowhere[SIZE];
+unsigned char* hompm_mutants_reached = nowhere;
+
+__attribute__((constructor)) static void read_environment() {
+  if (const char* number = std::getenv("HOMPM_MUTANT")) hompm_mutant_in_force = std::atoi(number);
+  const char* name = std::getenv("HOMPM_REACHED");
+  const int file = name ? open(name, O_RDWR | O_CLOEXEC) : -1;
+  if (file < 0) return;
+  void* const shared = mmap(nullptr, SIZE, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (shared != MAP_FAILED) hompm_mutants_reached = static_cast<unsigned char*>(shared);
 }
-NUMBER = re.compile(r"(?<![\w.'\"])(\d+\.\d+(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+|\d+)(?![\w.'\"])")
-INDEX = re.compile(r"(?<=[\w)\]])\[([^\[\]]+)\]")
+"""
+SWITCH_HEADER = """#pragma once
+extern int hompm_mutant_in_force;
+extern unsigned char* hompm_mutants_reached;
+constexpr bool hompm_mutant(int number) {
+  if (__builtin_is_constant_evaluated()) return false;
+  hompm_mutants_reached[number] = 1;
+  return number == hompm_mutant_in_force;
+}
+"""
 
 
-@dataclasses.dataclass(frozen=True)
-class Mutant:
-    path: str  # below the root
-    line: int  # from 1
-    start: int
-    end: int
-    kind: str
-    text: str  # what stands there instead
-    before: str  # the whole line
-
-    @property
-    def after(self):
-        return self.before[:self.start] + self.text + self.before[self.end:]
-
-    @property
-    def identity(self):
-        return digest(self.path + self.before.strip() + "\n" + self.after.strip())[:8]
-
-    @property
-    def room(self):
-        return self.path.split("/")[2]
+def run(*command, timeout=None, **variables):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, errors="replace", check=False,
+                          timeout=timeout, env=os.environ | variables)
 
 
-def digest(text):
-    return hashlib.sha256(text.encode()).hexdigest()
+def sources():
+    return {str(path.relative_to(ROOT)): path for path in sorted((ROOT / "lib" / "hompm").rglob("*.[ch]pp"))}
 
 
-def without_strings_and_comments(line):
-    """The line with the same columns, and blanks for what is not code."""
-    blank = lambda match: "\0" * len(match[0])
-    return re.sub(r"//.*", blank, re.sub(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'', blank, line))
-
-
-def changed_number(text):
-    if text.isdigit():
-        return str(int(text) + 1)
-    return "1.0" if float(text) == 0.0 else repr(2.0 * float(text))
-
-
-def mutants_of_line(path, number, line):
-    code = without_strings_and_comments(line)
-    if re.match(r"\s*(#|using |namespace |template|static_assert|static constexpr bool|throw |\[\[)", code):
-        return
-    for kind, swaps in SWAPS.items():
-        for old, new in swaps.items():
-            for match in re.finditer(re.escape(old), code):
-                if kind == "arithmetic" and "\0" in code:
-                    continue  # strings are joined, too
-                if old in (" * ", " - ") and re.match(r"\s*(const )?\w+ \* \w+( =|;|,|\))", code):
-                    continue  # a pointer
-                if kind == "sign" and code[match.end():match.end() + 1] in ("-", ">", "="):
-                    continue
-                yield Mutant(path, number, match.start(), match.end(), kind, new, line)
-    for match in NUMBER.finditer(code):
-        yield Mutant(path, number, match.start(), match.end(), "constant", changed_number(match[0]), line)
-    for match in INDEX.finditer(code):
-        for step in (" + 1", " - 1"):
-            yield Mutant(path, number, match.end() - 1, match.end() - 1, "index", step, line)
-
-
-def all_mutants(rooms):
-    """Of every line of the rooms, in the order that the seed draws them."""
+def all_mutants(rooms=()):
+    """Of every line of the library, or of some rooms, in the order that the seed draws them."""
     found = {}
-    for path in sorted((ROOT / "lib" / "hompm").rglob("*.[ch]pp")):
-        name = str(path.relative_to(ROOT))
-        if name.split("/")[2] in rooms:
-            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-                for mutant in mutants_of_line(name, number, line):
-                    found.setdefault(mutant.identity, mutant)
+    for name, path in sources().items():
+        for mutant in mutants_of_file(name, path.read_text(encoding="utf-8")):
+            if not rooms or mutant.room in rooms:
+                found.setdefault(mutant.identity, mutant)
     return sorted(found.values(), key=lambda mutant: digest(SEED + mutant.identity))
 
 
-def run(*command, timeout=None):
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=timeout)
+def write_if_other(path, content):
+    if not path.exists() or path.read_bytes() != content:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
 
 
-def prepare():
-    """Copies the tree, builds the unit tests, and returns how many translation units read each file, and the seconds of a run."""
-    files = run("git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard").stdout.splitlines()
-    for name in files:
-        source, target = ROOT / name, TREE / name
-        if source.is_file() and (not target.exists() or source.read_bytes() != target.read_bytes()):
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
-            shutil.copymode(source, target)
-    configured = run("cmake", "-S", str(TREE), "-B", str(BUILD), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O1")
-    built = run("ninja", "-C", str(BUILD), "test_unit") if configured.returncode == 0 else configured
-    if built.returncode != 0:
-        sys.exit(f"mutate: the code as it is does not build:\n{built.stdout[-3000:]}{built.stderr[-3000:]}")
-    start = time.monotonic()
-    tested = tests(600)
-    if tested != "survived":
-        sys.exit("mutate: the unit tests fail on the code as it is")
-    readers = collections.Counter()
-    for row in run("ninja", "-C", str(BUILD), "-t", "deps").stdout.splitlines():
-        if str(TREE) in row or "/lib/hompm/" in row:
-            readers["lib/hompm/" + row.strip().split("/lib/hompm/")[-1]] += 1
-    return readers, time.monotonic() - start
+class Mutation:
+    """A build of the tests with all mutants of a sample in it."""
 
+    def __init__(self, sample):
+        self.numbers = {mutant: number for number, mutant in enumerate(sample, start=1)}
+        self.size = 4096 * (1 + len(sample) // 4096)
+        self.copy_tree()
+        self.embed()
+        self.readers = collections.Counter()
+        for row in run("ninja", "-C", BUILD, "-t", "deps").stdout.splitlines():
+            if "/lib/hompm/" in row:
+                self.readers["lib/hompm/" + row.strip().split("/lib/hompm/")[-1]] += 1
+        self.find_reached()
 
-def tests(timeout):
-    """The unit tests, the cheapest first, until one fails."""
-    program = str(BUILD / "tests" / "test_unit")
-    try:
-        done = run(program, "--abort", timeout=timeout)
-    except subprocess.TimeoutExpired:
-        return "killed"  # it hangs
-    return "killed" if done.returncode != 0 else "survived"
+    def copy_tree(self):
+        names = run("git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard").stdout.splitlines()
+        for name in names:
+            if (ROOT / name).is_file() and name not in sources():
+                write_if_other(TREE / name, (ROOT / name).read_bytes())
+                shutil.copymode(ROOT / name, TREE / name)
+        for path in (TREE / "lib" / "hompm").rglob("*.[ch]pp"):
+            if str(path.relative_to(TREE)) not in sources() and path.name != "mutant_switch.cpp":
+                path.unlink()
+        write_if_other(WORK / "mutant_switch.hpp", SWITCH_HEADER.encode())
+        write_if_other(TREE / "lib/hompm/mutant_switch.cpp", SWITCH.replace("SIZE", str(self.size)).encode())
 
+    def embed(self):
+        """Builds with all mutants, and without those whose expression does not compile, until it does."""
+        inside = dict(self.numbers)
+        for _ in range(20):
+            places = {}
+            for name, path in sources().items():
+                numbers = {mutant: number for mutant, number in inside.items() if mutant.path == name}
+                text, found = with_switches(path.read_text(encoding="utf-8"), numbers)
+                write_if_other(TREE / name, text.encode())
+                places |= found
+            inside = {mutant: number for mutant, number in inside.items() if mutant in places}
+            built = self.build("-k", "0")
+            if built.returncode == 0:
+                self.embedded = set(inside)
+                return
+            faulty = {(match[1], int(match[2]))
+                      for match in re.finditer(r"(lib/hompm/[\w/]+\.[ch]pp):(\d+)(?=[:,])", built.stdout + built.stderr)}
+            wrong = {mutant for mutant in inside if any((mutant.path, line) in faulty for line in places[mutant])}
+            if not wrong:
+                sys.exit(f"mutate: the code as it is does not build:\n{built.stdout[-3000:]}{built.stderr[-3000:]}")
+            inside = {mutant: number for mutant, number in inside.items() if mutant not in wrong}
+            print(f"mutate: {len(wrong)} of {len(self.numbers)} mutants do not compile behind a switch", flush=True)
+        sys.exit("mutate: there is no end to the mutants that do not compile")
 
-def verdict(mutant, timeout):
-    target = TREE / mutant.path
-    original = target.read_text(encoding="utf-8")
-    lines = original.split("\n")
-    lines[mutant.line - 1] = mutant.after
-    try:
-        target.write_text("\n".join(lines), encoding="utf-8")
-        if run("ninja", "-C", str(BUILD), "test_unit").returncode != 0:
-            return "not compiled"  # the compiler noticed; does not count
-        return tests(timeout)
-    finally:
-        target.write_text(original, encoding="utf-8")
+    def build(self, *options):
+        if not (BUILD / "build.ninja").exists():
+            configured = run("cmake", "-S", TREE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+                             f"-DCMAKE_CXX_FLAGS=-O1 -w -include {WORK / 'mutant_switch.hpp'}")
+            if configured.returncode != 0:
+                return configured
+        return run("ninja", "-C", BUILD, *options, *PROGRAMS, "hompm-run", "hompm-diff", "hompm-study")
+
+    def test(self, test, timeout=600.0, **variables):
+        """Whether the test passes; one that hangs does not."""
+        program, name = test
+        escaped = re.sub(r"([\\,\[\]\"*])", r"\\\1", name)
+        try:
+            return run(BUILD / "tests" / program, escaped, timeout=timeout, **variables).returncode == 0
+        except subprocess.TimeoutExpired:
+            return False
+
+    def find_reached(self):
+        """Seconds of each test, and the numbers of the mutants that it reaches."""
+        self.seconds, self.reached = {}, {}
+        file = WORK / "reached"
+        for program in PROGRAMS:
+            for name in run(BUILD / "tests" / program, "--list-test-names-only").stdout.splitlines():
+                if name.startswith(NOT_RUN):
+                    continue
+                file.write_bytes(bytes(self.size))
+                start = time.monotonic()
+                if not self.test((program, name), HOMPM_REACHED=str(file)):
+                    sys.exit(f"mutate: the test `{name}` fails on the code as it is")
+                seconds = time.monotonic() - start
+                if seconds < LONG:
+                    self.seconds[program, name] = seconds
+                    self.reached[program, name] = {number for number, byte in enumerate(file.read_bytes()) if byte}
+
+    def verdict(self, mutant):
+        number = self.numbers[mutant]
+        tests = [test for test in self.seconds if number in self.reached[test]]
+        if mutant not in self.embedded or not tests:
+            return self.verdict_alone(mutant)
+        return self.judged(tests, HOMPM_MUTANT=str(number))
+
+    def judged(self, tests, **variables):
+        for test in sorted(tests, key=lambda test: self.seconds[test]):
+            if not self.test(test, 20.0 + 10.0 * self.seconds[test], **variables):
+                return "killed"
+        return "survived"
+
+    def verdict_alone(self, mutant):
+        """In a build of its own: for what is computed by the compiler, and for what is no expression."""
+        if self.readers[mutant.path] > FEW:
+            return "not run"
+        target = TREE / mutant.path
+        original = target.read_bytes()
+        try:
+            target.write_text(with_switches((ROOT / mutant.path).read_text(encoding="utf-8"), {}, mutant)[0], encoding="utf-8")
+            if self.build().returncode != 0:
+                return "not compiled"  # the compiler noticed; does not count
+            return self.judged(self.seconds)
+        finally:
+            target.write_bytes(original)
+
+    def alone(self, mutant):
+        number = self.numbers[mutant]
+        return mutant not in self.embedded or not any(number in reached for reached in self.reached.values())
 
 
 def stored(path, empty):
@@ -197,11 +236,15 @@ def share_table(title, results, key):
 def table(results):
     count, killed, share = summary(results)
     known = reasons()
+    others = collections.Counter(entry["verdict"] for entry in results.values() if entry["verdict"] not in DONE)
+    commits = ", ".join(sorted({entry["commit"] for entry in results.values()}))
     text = ["# Mutation run", "", "Written by `coverage/mutate.py`; [what it means](README.md#mutants).", "",
-            f"{killed} of {count} mutants are killed: {share:.1f} %. The sample has {COUNT}; {len(results) - count} that were tried do not compile.", "", *share_table("room", results, "room"), "",
-            *share_table("change", results, "kind"), "", "## Survivors", "", "| mutant | where | change | why no test notices |",
-            "| --- | --- | --- | --- |"]
-    for identity, entry in sorted(results.items(), key=lambda item: item[1]["path"]):
+            f"{killed} of {count} mutants are killed: {share:.1f} %. The sample has {len(results)}; "
+            f"{others['not compiled']} do not compile, {others['not run']} are in headers that too much includes. "
+            f"Run at {commits}.", "",
+            *share_table("room", results, "room"), "", *share_table("change", results, "kind"), "", "## Survivors", "",
+            "| mutant | where | change | why no test notices |", "| --- | --- | --- | --- |"]
+    for identity, entry in sorted(results.items(), key=lambda item: (item[1]["path"], item[0])):
         if entry["verdict"] == "survived":
             before, after = (entry[key].strip().replace("|", "\\|") for key in ("before", "after"))
             text.append(f"| {identity} | {entry['path']} | `{before}` → `{after}` | {known.get(identity, 'not looked into')} |")
@@ -220,31 +263,38 @@ def complaints(results):
     return found
 
 
-def run_mutants(sample, results, seconds):
+def run_mutants(sample, results, seconds, jobs):
     if not sample:
         return
-    readers, normal = prepare()
+    mutation = Mutation(sample)
     end = time.monotonic() + seconds
-    timeout = 10 + 5 * normal
-    for mutant in sample:
-        if time.monotonic() > end:
-            print("mutate: the time is over; run again to go on")
-            break
-        if readers[mutant.path] > FEW:
-            continue
-        entry = {"path": mutant.path, "room": mutant.room, "kind": mutant.kind, "before": mutant.before, "after": mutant.after,
-                 "verdict": verdict(mutant, timeout)}
-        results[mutant.identity] = entry
+    commit = run("git", "-C", ROOT, "describe", "--always", "--dirty").stdout.strip()
+
+    def keep(mutant, verdict):
+        results[mutant.identity] = {"path": mutant.path, "room": mutant.room, "kind": mutant.kind, "before": mutant.before,
+                                    "after": mutant.after, "verdict": verdict, "commit": commit}
         RESULTS.write_text(json.dumps(results, indent=1, ensure_ascii=False, sort_keys=True) + "\n", encoding="utf-8")
-        print(f"{entry['verdict']:12} {mutant.identity} {mutant.path}:{mutant.line}: {mutant.before.strip()}  ->  "
-              f"{mutant.after.strip()}", flush=True)
+        print(f"{verdict:12} {mutant.identity} {mutant.path}:{mutant.line}: {mutant.before.strip()}  ->  {mutant.after.strip()}",
+              flush=True)
+
+    switched = [mutant for mutant in sample if not mutation.alone(mutant)]
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for mutant, verdict in zip(switched, pool.map(lambda m: mutation.verdict(m) if time.monotonic() < end else None, switched)):
+            if verdict:
+                keep(mutant, verdict)
+    for mutant in sample:
+        if mutation.alone(mutant) and time.monotonic() < end:
+            keep(mutant, mutation.verdict(mutant))
+    if time.monotonic() > end:
+        print("mutate: the time is over; run again to go on")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=COUNT, help=f"mutants in the sample (default {COUNT})")
-    parser.add_argument("--room", nargs="+", choices=ROOMS, default=ROOMS, help="only these folders of lib/hompm")
-    parser.add_argument("--seconds", type=float, default=1e9, help="stop after this time")
+    parser.add_argument("--room", nargs="+", default=[], help="only these folders of lib/hompm")
+    parser.add_argument("--seconds", type=float, default=1e9, help="begin no mutant after this time")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="mutants at a time")
     parser.add_argument("--again", action="store_true", help="forget the results of earlier runs")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--show", metavar="ID")
@@ -261,13 +311,13 @@ def main():
     results = {} if given.again else stored(RESULTS, {})
     if not given.check:
         # A result of code that is no more is worth nothing.
-        there = {mutant.identity for mutant in all_mutants(ROOMS)}
+        there = {mutant.identity for mutant in all_mutants()}
         results = {identity: entry for identity, entry in results.items() if identity in there}
         sample = mutants[:given.count]
         if given.list:
             print("\n".join(f"{m.identity} {m.kind:10} {m.path}:{m.line}: {m.after.strip()}" for m in sample))
             return 0
-        run_mutants([mutant for mutant in sample if mutant.identity not in results], results, given.seconds)
+        run_mutants([mutant for mutant in sample if mutant.identity not in results], results, given.seconds, given.jobs)
         TABLE.write_text(table(results), encoding="utf-8")
     elif not TABLE.exists() or TABLE.read_text(encoding="utf-8") != table(results):
         print(f"mutate: {TABLE.name} is not what {RESULTS.name} and {REASONS.name} say; run coverage/mutate.py --count 0")

@@ -84,6 +84,20 @@ TEST_CASE("conserve says what the reconstructed density keeps") {
   CHECK(column.largest_momentum_residual < 1e-9);  // of 500 kg/(m s), the cut span ties functions
 }
 
+TEST_CASE("a density that a shift to the mass of its cell would make negative stops the run") {
+  const auto scene =
+      built_in("bar", "large",
+               {{"scheme.name", "tielen2017"}, {"scheme.cells", "4"}, {"scheme.conserve", "cell-mass"}});
+  hompm::Simulation simulation(scene, 1e-4);
+  simulation.step();
+  // A density 2^(i/2) at particles that have 1: the last cell takes the difference of its mean, 115, from its
+  // left end, where there are 64.
+  auto& stretch = simulation.state().particles.stretch;
+  for (std::size_t i = 0; i < stretch.size(); ++i) stretch[i] = std::exp2(-0.5 * static_cast<double>(i));
+  CHECK_THAT(hompm::test::message_of<hompm::InvalidRun>([&] { simulation.step(); }),
+             contains("the density spline is not positive"));
+}
+
 TEST_CASE("choices may be made with any scheme that has what they need") {
   const auto keys = GENERATE(
       Keys{{"scheme.name", "bspline"},

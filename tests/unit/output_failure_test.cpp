@@ -9,6 +9,7 @@
 
 #include <hompm/error.hpp>
 #include <hompm/output/run_folder.hpp>
+#include <hompm/output/staging.hpp>
 #include <hompm/output/text_file.hpp>
 
 #include "support/catch.hpp"
@@ -134,4 +135,15 @@ TEST_CASE("a folder whose replacement failed half-way does not look complete", "
   INFO(message);
   CHECK(contains(message, (folder / "stress.csv").string() + ": Is a directory"));
   CHECK_FALSE(fs::exists(folder / "run.json"));
+}
+
+TEST_CASE("a file whose place is taken by a folder stays behind, and the folder is told", "[output]") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "here");
+  hompm::detail::StagingFolder staging(folder.path());
+  staging.create("here").close();
+  CHECK(contains(message_of<hompm::FileError>([&] { staging.move_into_place("here"); }),
+                 (folder / "here").string() + ": Is a directory"));
+  CHECK(staging.names().count("here") == 1);
+  CHECK(fs::is_directory(folder / "here"));
 }

@@ -239,6 +239,18 @@ TEST_CASE("instructions of a run follow from those of a few steps without overfl
         10'000'000'000'000'000'000ULL);
 }
 
+TEST_CASE("counted instructions come back from a record", "[study]") {
+  study::Record record;
+  record.instructions = study::Instructions{
+      .counted = 7, .counted_steps = 3, .total = 5'000'000'000'000'000'000ULL, .per_particle_and_step = 0.1};
+  const auto read = study::read_record(study::record_text(record)).instructions;
+  REQUIRE(read);
+  CHECK(read->counted == 7);
+  CHECK(read->counted_steps == 3);
+  CHECK(read->total == 5'000'000'000'000'000'000ULL);
+  CHECK(read->per_particle_and_step == 0.1);
+}
+
 TEST_CASE("a record that is none is refused", "[study]") {
   CHECK(contains(message_of<Error>([] { study::read_record("{"); }), "not a record"));
   CHECK(contains(message_of<Error>([] { study::read_record("{}"); }), "not a record"));

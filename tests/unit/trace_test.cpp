@@ -5,8 +5,10 @@
 #include <string>
 
 #include <hompm/error.hpp>
+#include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/trace.hpp>
 #include <hompm/recorder/trace_comparison.hpp>
+#include <hompm/recorder/trace_format.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/run.hpp>
 
@@ -205,6 +207,26 @@ TEST_CASE("the trace of a resumed run continues that of the whole one") {
   }
 }
 
+TEST_CASE("a trace that ends before the other begins is a difference, and says so") {
+  const TemporaryFolder scratch;
+  auto scene = busy_scene("bspline", 2, "leapfrog", "finite");
+  const auto points = record_run(scene, 50).points;
+  write_trace(
+      scene, scratch / "late", [](Plan&) {}, {}, &points.front().point);
+  scene.end_time = 0.02;
+  write_trace(scene, scratch / "early");
+  const auto messages = [&](const char* a, const char* b) {
+    const auto found = hompm::compare_traces(scratch / a, scratch / b);
+    CHECK_FALSE(found.identical);
+    CHECK_FALSE(found.first);
+    return found.messages;
+  };
+  CHECK(messages("early", "late") ==
+        std::vector<std::string>{"A ends at step 20, before the other begins at step 50"});
+  CHECK(messages("late", "early") ==
+        std::vector<std::string>{"B ends at step 20, before the other begins at step 50"});
+}
+
 TEST_CASE("traces of other plans, states and lengths differ, and say how") {
   const TemporaryFolder scratch;
   const auto trace_of = [&](const char* name,
@@ -257,6 +279,11 @@ TEST_CASE("a trace cut off anywhere is read as far as it goes, a damaged one is 
     if (message_of<hompm::FileError>([&] { compare(bad); }).empty()) FAIL("byte " << i << " went through");
   }
   CHECK_THROWS_AS(hompm::compare_traces(scratch / "good", scratch / "none"), hompm::FileError);
+  hompm::detail::ByteWriter other;
+  other.bytes = hompm::detail::trace_magic;
+  other.word(hompm::detail::trace_format + 1);
+  CHECK_THAT(message_of<hompm::FileError>([&] { compare(other.bytes); }),
+             contains("the trace has the format 2"));
 }
 
 TEST_CASE("a trace that cannot be written stops the run; one of a run that fails is whole") {

@@ -138,8 +138,6 @@ Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source)
   if (detail::hash_of_bytes(rest) != hash) refuse("it is damaged: its checksum does not match");
   try {
     return read_content(rest, source);
-  } catch (const CheckpointError&) {
-    throw;
   } catch (const Error& error) {
     throw CheckpointError("cannot resume from " + source + ": " + error.what());
   }
