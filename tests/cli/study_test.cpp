@@ -141,7 +141,7 @@ TEST_CASE("times are taken once per round and kept, and tables and pictures are 
     CHECK(fs::file_size(folder / "out" / name) > 1000);
 }
 
-TEST_CASE("counted steps stand for the whole run to half a percent, those of high-order to one and a half") {
+TEST_CASE("counted steps stand for the whole run to half a percent") {
   if (!has_valgrind()) {
     WARN("valgrind is not there");
     return;
@@ -171,9 +171,7 @@ TEST_CASE("counted steps stand for the whole run to half a percent, those of hig
     const double exact = std::stod(whole.err.substr(label + 12));
     const auto counted = static_cast<double>(instructions_of(folder / "out", "courant=" + courant));
     INFO(counted << " " << exact);
-    // A step of high-order counts some 350 instructions more when it is started from a stored state; why is
-    // not known.
-    CHECK(std::abs(counted / exact - 1.0) < (scheme == "high-order" ? 0.015 : 0.005));
+    CHECK(std::abs(counted / exact - 1.0) < 0.005);
   }
 }
 
