@@ -46,6 +46,7 @@ enum class Conserve {
   momentum,   ///< row sums of the mass matrix are Σ m_p N_i: forces change Σ m_p v_p by what they are
 };
 
+/// The defaults are the classical form.
 struct SchemeChoices {
   Quadrature quadrature = Quadrature::particles;
   MassForm acceleration_mass = MassForm::lumped;

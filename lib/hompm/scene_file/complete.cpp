@@ -33,9 +33,8 @@ void complete_kinematics(Reading& reading) {
                            "\"infinitesimal\"; the small-strain law is linear");
 }
 
-void complete_degree(Reading& reading, const Scheme& scheme) {
+void check_degree(Reading& reading, const Scheme& scheme) {
   int& degree = reading.scene.scheme.degree;
-  if (reading.silent_on("scheme.degree")) degree = scheme.default_degree;
   if (degree >= scheme.lowest_degree && degree <= scheme.highest_degree) return;
   if (reading.has("scheme.degree")) {
     const std::string possible =
@@ -52,24 +51,24 @@ void complete_degree(Reading& reading, const Scheme& scheme) {
   degree = scheme.lowest_degree;  // so that what follows is wrong for any degree
 }
 
-void complete_margin(Reading& reading) {
-  SchemeSpec& scheme = reading.scene.scheme;
-  if (reading.silent_on("scheme.margin_cells")) {
-    // A free end that moves by less than a quarter of the body stays on the grid.
-    scheme.margin_cells = std::max(scheme.degree + 2, (scheme.cells + 3) / 4);
-  } else if (reading.has("scheme.margin_cells") && scheme.margin_cells < scheme.degree + 1) {
-    reading.report(reading.said.where("scheme.margin_cells"),
-                   "`scheme.margin_cells` must be a whole number of at least " +
-                       std::to_string(scheme.degree + 1) + ", the degree + 1, not " +
-                       shown(reading.said.find("scheme.margin_cells")->content));
-  }
+void check_margin(Reading& reading) {
+  const SchemeSpec& scheme = reading.scene.scheme;
+  if (!reading.has("scheme.margin_cells") || scheme.margin_cells >= scheme.degree + 1) return;
+  reading.report(reading.said.where("scheme.margin_cells"),
+                 "`scheme.margin_cells` must be a whole number of at least " +
+                     std::to_string(scheme.degree + 1) + ", the degree + 1, not " +
+                     shown(reading.said.find("scheme.margin_cells")->content));
 }
 
-bool is_choice(const KeyRow& row) { return row.standard == own_choice; }
-
-void complete_choices(Reading& reading, const Scheme& scheme) {
+void complete_scheme(Reading& reading, const Scheme& scheme) {
+  const bool degree_is_said = !reading.silent_on("scheme.degree");
+  if (degree_is_said) check_degree(reading, scheme);
   Scene own;
   own.scheme.choices = scheme.choices;
+  own.scheme.degree = scheme.default_degree;
+  const int degree = degree_is_said ? reading.scene.scheme.degree : scheme.default_degree;
+  // A free end that moves by less than a quarter of the body stays on the grid.
+  own.scheme.margin_cells = std::max(degree + 2, (reading.scene.scheme.cells + 3) / 4);
   const bool ready =
       reading.has("material.density") && reading.has("material.youngs_modulus") && reading.has("body.length");
   if (scheme.relaxes && ready) {
@@ -79,8 +78,8 @@ void complete_choices(Reading& reading, const Scheme& scheme) {
         numerics::pi * std::sqrt(material.youngs_modulus / material.density) / reading.scene.body.length;
   }
   for (const KeyRow& row : key_table())
-    if ((is_choice(row) || row.path == "scheme.relaxation_rate") && reading.silent_on(row.path))
-      copy_value(row, own, reading.scene);
+    if (row.absent == Absent::of_scheme && reading.silent_on(row.path)) copy_value(row, own, reading.scene);
+  check_margin(reading);
 }
 
 /// Reports choices that do not go together, at the one the scene made itself.
@@ -161,9 +160,7 @@ void complete(Reading& reading) {
   const auto scheme = std::find_if(schemes.begin(), schemes.end(),
                                    [&](const Scheme& row) { return row.name == reading.scene.scheme.name; });
   if (scheme != schemes.end()) {
-    complete_degree(reading, *scheme);
-    complete_margin(reading);
-    complete_choices(reading, *scheme);
+    complete_scheme(reading, *scheme);
     check_choices(reading);
   }
   check_particle_count(reading);

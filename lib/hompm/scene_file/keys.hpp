@@ -19,9 +19,11 @@ using Slot = std::variant<double*, int*, bool*, std::string*, std::optional<doub
                           TimeIntegrator*, FreeEnd*, Conserve*>;
 
 enum class Absent {
-  missing,   ///< an error
-  standard,  ///< the default is `KeyRow::standard`, TOML text
-  derived,   ///< follows from other keys; `KeyRow::standard` says how, and `complete` in reading.hpp does it
+  missing,    ///< an error
+  standard,   ///< the default is `KeyRow::standard`, TOML text
+  of_scheme,  ///< follows from the row of the table of schemes; another scheme said on the command line takes
+              ///< back what the file says of it
+  derived,    ///< follows from other keys; `KeyRow::standard` says how, and `complete` in reading.hpp does it
 };
 
 struct KeyRow {
@@ -33,9 +35,6 @@ struct KeyRow {
   std::string meaning;
   Slot (*slot)(Scene&);
 };
-
-/// `KeyRow::standard` of the choices of a scheme (scene/scheme_choices.hpp).
-inline constexpr std::string_view own_choice = "the scheme's own";
 
 /// All keys, in the order in which they are written.
 const std::vector<KeyRow>& key_table();

@@ -87,8 +87,7 @@ void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
   if (said.contains("scheme.name")) {
     // What suits one scheme need not suit another.
     for (const KeyRow& row : key_table())
-      if (row.path.starts_with("scheme.") && row.absent == Absent::derived && !row.standard.empty())
-        values.erase(row.path);
+      if (row.absent == Absent::of_scheme) values.erase(row.path);
   }
   const std::vector<std::string> steps{"scheme.time_step", "scheme.courant", "scheme.step_fraction"};
   for (const std::string& step : steps) {

@@ -26,8 +26,8 @@ struct Scheme {
   int lowest_degree;
   int highest_degree;
   int default_degree;
-  SchemeChoices choices;
-  bool relaxes;  ///< null-space relaxation unless the scene sets its rate to 0
+  SchemeChoices choices;  ///< where a row is silent, those of `classical`
+  bool relaxes = false;   ///< null-space relaxation unless the scene sets its rate to 0
 };
 
 /// The table of schemes, in the order in which `--list` shows them.
