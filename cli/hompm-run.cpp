@@ -59,6 +59,7 @@ po::options_description make_options() {
       "no-vtk", "write no vtk files")("check", text("DIR"),
                                       "compare with a golden folder; its scene is run when none is named")(
       "explain", "print the stages of a step and what called for each, and run nothing")(
+      "critical-step", "print the largest stable time step, and run nothing")(
       "json", "print run.json instead of the summary")("quiet", "print nothing but errors")(
       "checkpoint", text("EVERY"), "write checkpoint.hompm into the output folder every EVERY steps")(
       "resume", text("FILE"), "go on from a checkpoint, in its folder unless --output is given")(
@@ -127,6 +128,10 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
               std::optional<hompm::Checkpoint> from) {
   const bool quiet = given.count("quiet") > 0;
   const bool resumed = from.has_value();
+  if (given.count("critical-step")) {
+    std::cout << hompm::cli::critical_step_text(scene);
+    return hompm::cli::success;
+  }
   const hompm::TimeStepping stepping = hompm::time_stepping(scene);
   const hompm::Checkpoint begin = starting_point(scene, given, std::move(from));
   if (given.count("explain")) {

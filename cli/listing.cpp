@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <hompm/effects/registry.hpp>
@@ -9,6 +10,7 @@
 #include <hompm/number.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
+#include <hompm/simulation/critical_step.hpp>
 #include <hompm/simulation/simulation.hpp>
 
 namespace hompm::cli {
@@ -87,6 +89,28 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
     }
   }
   return text + "effects absent: " + effects_left_out(scene) + "\n";
+}
+
+std::string critical_step_text(const hompm::Scene& scene) {
+  const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
+  const double cell = scene.body.length / scene.scheme.cells;
+  std::string text;
+  const auto add = [&](const std::string& where, double step) {
+    std::array<char, 96> line{};
+    std::snprintf(line.data(), line.size(), "  %-44s %10.4g %8.4f\n", where.c_str(), step,
+                  step * wave_speed / cell);
+    text += line.data();
+  };
+  text += scene.scheme.name + ", p = " + std::to_string(scene.scheme.degree) + ", " +
+          std::to_string(scene.scheme.particles_per_cell) +
+          " particles per cell                 step, s   c dt/h\n";
+  hompm::CriticalStep critical(scene);
+  add("at the start", critical.at(hompm::initial_state(scene)));
+  if (moving_free_end(scene))
+    for (const double cut : {1e-6, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
+      add("free end " + to_text(cut) + " cells beyond a breakpoint", critical.with_cut(cut));
+  add("refused above", hompm::critical_time_step(scene));
+  return text;
 }
 
 }  // namespace hompm::cli

@@ -122,6 +122,24 @@ set multiplot layout 1,2 title "Free end in a span: solid with the extension, da
     return script + "unset multiplot\n"
 
 
+def limit_cut(tools):
+    """Critical step against the filled part of the last span."""
+    curves = [("bspline", 1, 1), ("bspline", 2, 2), ("tielen2017", 1, 1), ("tielen2017", 2, 2), ("high-order", 2, 1), ("high-order", 3, 2)]
+    script = START.format(size="760,460", name="limit-cut")
+    plots = []
+    for number, (scheme, degree, dash) in enumerate(curves):
+        script += block(f"c{number}", [[f"{cut:g}", f"{limit:g}"] for cut, limit in make_tables.limit_cuts(tools, scheme, degree)])
+        plots.append(f'$c{number} using 1:2 with linespoints linewidth 2.5 dashtype {dash} pointsize 0.5 pointtype {STYLES[scheme][1]} '
+                     f'linecolor "{STYLES[scheme][0]}" title "{scheme}, p = {degree}"')
+    return script + """
+set xrange [0:0.92]
+set yrange [0:2.5]
+set xlabel "filled part ε of the last span"
+set ylabel "critical step c Δt/h"
+set key outside right samplen 2
+plot """ + ", \\\n     ".join(plots) + "\n"
+
+
 def comparing(tools):
     """What hompm-diff --picture draws, here of golden data of two schemes."""
     golden = make_tables.ROOT / "golden"
@@ -144,7 +162,7 @@ def main():
     stale = []
     with tempfile.TemporaryDirectory() as work:
         tools = make_tables.Tools(arguments.tool.resolve(), work)
-        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("comparing", comparing)):
+        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("limit-cut", limit_cut), ("comparing", comparing)):
             subprocess.run(["gnuplot"], input=draw(tools), text=True, check=True, cwd=work)
             new = (pathlib.Path(work) / f"{name}.svg").read_text()
             path = PICTURES / f"{name}.svg"

@@ -238,11 +238,10 @@ def cases(_tools):
 
 
 def courant_limit(tools, scheme, degree, per_cell, right):
-    """c Δt/h of the critical step as hompm-run computes it."""
+    """c Δt/h of the critical step at the start as hompm-run computes it."""
     scene = ["--case", "bar", "--variant", "small", "--cells", 64, "--particles-per-cell", per_cell,
-             "--scheme", scheme, "--degree", degree, "--set", f"ends.right={right}", "--explain"]
-    step = float(re.search(r"critical step (\S+) s", tools.text(*scene, "--time-step", "1e-5")).group(1))
-    return step * 10.0 / (25.0 / 64)
+             "--scheme", scheme, "--degree", degree, "--set", f"ends.right={right}", "--critical-step"]
+    return float(re.search(r"at the start +\S+ +(\S+)", tools.text(*scene)).group(1))
 
 
 def limits(tools):
@@ -263,6 +262,33 @@ def limits_p1(tools):
     counts = [2, 4, 8, 16]
     row = [f"{courant_limit(tools, 'tielen2017', 1, count, 'fixed'):.2f}" for count in counts]
     return table(["particles per cell", *counts], [["`tielen2017`, p = 1", *row]], range(1, 5))
+
+
+def limit_map(tools):
+    counts = [1, 2, 3, 4, 6, 8]
+    rows = []
+    for row in scheme_rows():
+        for degree in range(int(row["lowest_degree"]), int(row["highest_degree"]) + 1):
+            fewest = 2 if row["name"] == "high-order" and degree > 2 else 1
+            limits = [f"{courant_limit(tools, row['name'], degree, count, 'fixed'):.2f}" if count >= fewest else "–" for count in counts]
+            rows.append([f"`{row['name']}`", degree, *limits])
+    return table(["scheme", "p", *counts], rows, range(1, 8))
+
+
+def limit_cuts(tools, scheme, degree):
+    """[(ε, c Δt/h)] for a free end ε of a cell beyond a breakpoint."""
+    text = tools.text("--case", "bar", "--cells", 64, "--scheme", scheme, "--degree", degree, "--set", "ends.right=free", "--critical-step")
+    return [tuple(map(float, pair)) for pair in re.findall(r"free end (\S+) cells .*?(\S+)$", text, re.MULTILINE)]
+
+
+def limit_cut(tools):
+    rows, cuts = [], []
+    for row in scheme_rows():
+        for degree in range(int(row["lowest_degree"]), int(row["highest_degree"]) + 1):
+            pairs = [pair for pair in limit_cuts(tools, row["name"], degree) if pair[0] < 0.05 or round(10 * pair[0]) in (1, 2, 3, 4, 6, 8)]
+            cuts = [f"{cut:g}" for cut, _ in pairs]
+            rows.append([f"`{row['name']}`", degree, *(f"{limit:.2f}" for _, limit in pairs)])
+    return table(["scheme", "p", *(f"ε = {cut}" for cut in cuts)], rows, range(1, 2 + len(cuts) + 1))
 
 
 # From the ground up.
@@ -340,6 +366,7 @@ def examples(_tools):
 
 PARTS = {
     "schemes": schemes, "choices": choices, "cases": cases, "plan": plan, "output": output, "limits": limits, "limits-p1": limits_p1,
+    "limit-map": limit_map, "limit-cut": limit_cut,
     "rooms": rooms, "examples": examples, "mistake": mistake, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),

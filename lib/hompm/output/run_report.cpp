@@ -51,6 +51,7 @@ std::string run_json(const RunReport& report) {
             {"particles", result.final.size()},
             {"time_step", report.stepping.time_step},
             {"critical_time_step", report.stepping.critical_time_step},
+            {"largest_step_fraction", result.largest_step_fraction},
             {"steps", result.steps},
             {"end_time", result.end.time},
             {"at_rest", result.at_rest}};
@@ -107,7 +108,10 @@ std::string run_summary(const RunReport& report) {
           " particles\n";
   text += "  time      " + std::to_string(result.steps) + " steps of " + brief(stepping.time_step) +
           " s to t = " + to_text(result.end.time) + " s; the critical step is " +
-          brief(stepping.critical_time_step) + " s\n";
+          brief(stepping.critical_time_step) + " s";
+  if (const double met = result.largest_step_fraction; met > 1.0 && stepping.time_step <= stepping.critical_time_step)
+    text += ", and the step was " + brief(met) + " of it for a while";
+  text += "\n";
   if (scene.rest)
     text += result.at_rest ? "  rest      reached\n" : "  rest      not reached by the end time\n";
   if (report.errors) {

@@ -14,7 +14,7 @@ using detail::ByteReader;
 using detail::ByteWriter;
 
 constexpr std::string_view magic = "hompm checkpoint";
-constexpr std::uint64_t format = 1;
+constexpr std::uint64_t format = 2;
 constexpr std::size_t head_size = magic.size() + 24;  // magic, format, length, hash
 
 /// The sums of a point, in the order in which they are written; `Any` is a `RunPoint`, const or not.
@@ -22,12 +22,14 @@ template <class Any, class Visit>
 void visit_sums(Any& point, Visit visit) {
   // Every member is named, so that a new one does not compile before it has its place here.
   auto& [state, extremes, supplied, quiet_steps] = point;
-  auto& [residual, momentum_residual, internal_force_sum, energy, momentum] = extremes;
+  auto& [residual, momentum_residual, internal_force_sum, energy, momentum, step_fraction, wave_speed] = extremes;
   visit(residual);
   visit(momentum_residual);
   visit(internal_force_sum);
   visit(energy);
   visit(momentum);
+  visit(step_fraction);
+  visit(wave_speed);
   visit(supplied);
 }
 

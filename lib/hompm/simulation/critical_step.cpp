@@ -1,30 +1,14 @@
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <initializer_list>
 
+#include <hompm/error.hpp>
+#include <hompm/numerics/spectral_radius.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>
-#include <hompm/simulation/simulation.hpp>
 
 namespace hompm {
 namespace {
-
-double norm(const std::vector<double>& v) {
-  double sum = 0.0;
-  for (const double x : v) sum += x * x;
-  return std::sqrt(sum);
-}
-
-/// A start with a part along every mode: a fixed pseudo-random sequence (Numerical Recipes' linear
-/// congruential generator).
-std::vector<double> scattered(std::size_t count) {
-  std::vector<double> v(count);
-  std::uint32_t seed = 1;
-  for (double& x : v) {
-    seed = 1664525u * seed + 1013904223u;
-    x = static_cast<double>(seed >> 8) / 8388608.0 - 1.0;
-  }
-  return v;
-}
 
 /// Trace of one step of length z of the oscillator x'' = −x: stable where it is between −2 and 2.
 double trace(const Splitting& splitting, double z) {
@@ -57,40 +41,66 @@ double largest_stable_phase(const Splitting& splitting) {
   return low;
 }
 
+/// A body of few cells that has the ends of the scene: what happens there does not depend on the rest.
+Scene ends_of(const Scene& scene) {
+  constexpr int enough = 16;
+  Scene ends = scene;
+  const int cells = std::min(scene.scheme.cells, enough);
+  ends.body.length = scene.body.length * cells / scene.scheme.cells;
+  ends.scheme.cells = cells;
+  ends.scheme.margin_cells = scene.scheme.degree + 2;
+  return ends;
+}
+
 }  // namespace
 
-double critical_time_step(const Scene& scene) {
-  Scene linear = scene;
-  linear.kinematics = Kinematics::infinitesimal;
-  linear.material.law = "linear";
-  linear.effects.clear();
-  linear.initial_velocity.reset();
-  linear.scheme.relaxation_rate = 0.0;
-  Simulation simulation(linear, 1.0);
-  State& state = simulation.state();
-  state.kick = state.drift = 1.0;  // the map is linear in both
-  Particles& p = state.particles;
-  const auto rest = [&] {
-    std::fill(p.displacement.begin(), p.displacement.end(), 0.0);
-    std::fill(p.stretch.begin(), p.stretch.end(), 1.0);
-    std::fill(p.stress.begin(), p.stress.end(), 0.0);
-  };
+CriticalStep::CriticalStep(const Scene& scene)
+    : phase_(largest_stable_phase(splitting(scene.scheme.choices.time_integrator))),
+      start_(initial_state(scene)),
+      linear_(scene) {}
 
-  std::vector<double> stress = scattered(p.size());
-  constexpr int rounds = 400;
-  for (int round = 0; round < rounds; ++round) {
-    const double length = norm(stress);
-    for (double& s : stress) s /= length;
-    rest();
-    std::fill(p.velocity.begin(), p.velocity.end(), 0.0);
-    p.stress = stress;
-    for (const Phase phase : {Phase::end_stress, Phase::internal_force, Phase::acceleration})
-      simulation.plan().run(phase, state);
-    rest();  // so that the motion leaves D A σ alone, whether it adds to the stress or sets it
-    for (const Phase phase : {Phase::velocity, Phase::motion}) simulation.plan().run(phase, state);
-    stress = p.stress;
+double CriticalStep::at(const State& state) {
+  linear_.linearise(state);
+  return of_linearised();
+}
+
+double CriticalStep::with_cut(double cut) {
+  linear_.linearise_with_cut(start_, cut);
+  return of_linearised();
+}
+
+double CriticalStep::of_linearised() {
+  // The square root halves the error, and a value that has settled to a tolerance is known to a few of them.
+  constexpr double tolerance = 0.004;
+  constexpr int most_rounds = 100;
+  const auto radius = numerics::spectral_radius(
+      linear_.size(), [&](const auto& stress, auto& result) { linear_.apply(stress, result); }, tolerance,
+      most_rounds);
+  return phase_ / std::sqrt(radius.value);
+}
+
+bool moving_free_end(const Scene& scene) {
+  const bool free = scene.ends.left == End::free || scene.ends.right == End::free;
+  return free && scene.kinematics == Kinematics::finite;
+}
+
+double critical_time_step(const Scene& scene) {
+  CriticalStep whole(scene);
+  double least = whole.at(initial_state(scene));
+  if (!moving_free_end(scene)) return least;
+
+  CriticalStep ends(ends_of(scene));
+  const double spacing = 1.0 / scene.scheme.particles_per_cell;
+  for (const double cut : {1e-6, 0.5 * spacing + 0.02, 1.5 * spacing + 0.02}) {
+    try {
+      least = std::min(least, ends.with_cut(cut - std::floor(cut)));
+    } catch (const InvalidRun& error) {
+      const auto said = scene.origins.find("scheme.particles_per_cell");
+      throw SceneError(said == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : said->second,
+                       "a free end cannot move through the grid: " + error.reason);
+    }
   }
-  return largest_stable_phase(splitting(scene.scheme.choices.time_integrator)) / std::sqrt(norm(stress));
+  return least;
 }
 
 }  // namespace hompm

@@ -6,6 +6,7 @@
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/simulation/run.hpp>
+#include <hompm/simulation/step_watch.hpp>
 
 namespace hompm {
 namespace {
@@ -89,6 +90,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
               const RunPoint* from) {
   numerics::check_floating_point();
   Simulation simulation(scene, stepping.time_step);
+  const Material material = make_material(scene.material);
   RunResult result;
   result.start = result.end = simulation.history(0.0);
   if (from != nullptr) {
@@ -96,6 +98,8 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     static_cast<RunExtremes&>(result) = from->extremes;
   } else {
     accumulate(result, result.start);
+    result.largest_step_fraction = stepping.time_step / stepping.critical_time_step;
+    result.largest_wave_speed = detail::fastest_wave(material, simulation.state());
     if (observer.history) observer.history(result.start);
     if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
   }
@@ -110,6 +114,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
   for (std::int64_t step = simulation.state().step + 1; step <= stepping.steps && !result.at_rest; ++step) {
     simulation.step();
     result.steps = step;
+    detail::watch_step(scene, material, simulation.state(), result);
     result.at_rest = rest && rest->at_rest(simulation.state().particles);
     const bool last = step == stepping.steps || result.at_rest;
     const bool row_due = last || is_due(step, stepping.steps, scene.output.history);

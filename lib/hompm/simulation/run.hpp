@@ -17,6 +17,8 @@ struct RunExtremes {
   double largest_internal_force_sum = 0.0;  ///< of |Σ f_int| / Σ |f_int|
   double largest_energy = 0.0;              ///< of kinetic + stored + the magnitude of gravity's, J/m²
   double largest_momentum = 0.0;            ///< of |Σ m v| + |impulse|, kg/(m s)
+  double largest_step_fraction = 0.0;       ///< of the time step over the critical one
+  double largest_wave_speed = 0.0;          ///< in the body, m/s, where it was looked at
 };
 
 struct RunResult : RunExtremes {

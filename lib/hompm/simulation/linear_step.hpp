@@ -1,0 +1,45 @@
+// The scheme's own step, linearised in a configuration: what its stability depends on.
+#pragma once
+
+#include <vector>
+
+#include <hompm/materials/material.hpp>
+#include <hompm/simulation/simulation.hpp>
+
+namespace hompm {
+
+/// With positions frozen, a step is a linear map of the particles' velocity and stress: the stress makes the
+/// force, the force changes velocities, these go to the grid, whose velocity strains the particles. One turn
+/// from stress to stress, with all time steps 1, has the eigenvalues −ω² of the modes (derived in
+/// docs/stability.md). Without effects and relaxation. Of stresses, because particles do not feel what is
+/// left undetermined on the grid: the function on a cut span that holds no particle.
+class LinearStep {
+ public:
+  /// Throws as `Simulation`.
+  explicit LinearStep(const Scene& scene);
+
+  /// Takes the configuration of a state of the same scene: positions, densities, and the tangent of the law
+  /// at the present stretch. Throws `InvalidRun` where the stages that look at positions do.
+  void linearise(const State& state);
+
+  /// As `linearise`, with the body stretched by less than a cell so that each free end lies `cut` of a cell
+  /// beyond a breakpoint. Density and wave speed of the material stay.
+  void linearise_with_cut(const State& state, double cut);
+
+  /// The size of the vectors: one entry per particle, markers included.
+  [[nodiscard]] std::size_t size() const { return stiffening_.size(); }
+
+  /// One turn; `result` holds `size()` entries, Pa/s².
+  void apply(const std::vector<double>& stress, std::vector<double>& result);
+
+ private:
+  void take(const State& state, double stretch, double shift);
+
+  bool from_positions_;
+  Material material_;
+  double youngs_modulus_;
+  Simulation simulation_;
+  std::vector<double> stiffening_;  ///< tangent of the law over its modulus at rest, per particle
+};
+
+}  // namespace hompm

@@ -1,0 +1,150 @@
+// The critical step is that of the step the library does: eigenvalues, runs on each side, moving ends, other
+// laws.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include <hompm/scheme/scheme.hpp>
+#include <hompm/simulation/critical_step.hpp>
+#include <hompm/simulation/run.hpp>
+
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+namespace {
+
+using hompm::Scene;
+using hompm::State;
+using Matrix = Eigen::MatrixXd;
+
+/// A bar of 16 cells of width 1 with c = 1, so that steps are Courant numbers.
+Scene bar(const std::string& scheme, int degree, int per_cell, const std::string& right,
+          const std::string& law = "rate") {
+  return hompm::parse_scene(R"(
+end_time = 1.0
+body.length = 16.0
+material = { law = ")" + law + R"(", density = 1.0, youngs_modulus = 1.0 }
+ends.right = ")" + right + R"("
+[scheme]
+name = ")" + scheme + R"("
+degree = )" + std::to_string(degree) + R"(
+cells = 16
+particles_per_cell = )" + std::to_string(per_cell) + R"(
+step_fraction = 0.5
+)",
+                            "bar", {});
+}
+
+/// phase/√|λ|max of the library's own linearised step, all its columns at once.
+double dense_limit(hompm::LinearStep& step, double phase) {
+  const auto n = static_cast<Eigen::Index>(step.size());
+  Matrix map(n, n);
+  std::vector<double> unit(step.size()), column(step.size());
+  for (Eigen::Index j = 0; j < n; ++j) {
+    unit.assign(step.size(), 0.0);
+    unit[static_cast<std::size_t>(j)] = 1.0;
+    step.apply(unit, column);
+    map.col(j) = Eigen::Map<Eigen::VectorXd>(column.data(), n);
+  }
+  return phase / std::sqrt(map.eigenvalues().cwiseAbs().maxCoeff());
+}
+
+/// Stretched by up to 30 %, unevenly, with the stress that belongs to it; an end that is free is somewhere in
+/// a span.
+State stretched_state(const Scene& scene) {
+  State state = hompm::initial_state(scene);
+  hompm::Particles& p = state.particles;
+  const double length = scene.body.length;
+  const auto u = [&](double X) { return scene.ends.right == hompm::End::free ? 0.15 * X * X / length : 0.6 * X * (length - X) / length; };
+  const auto slope = [&](double X) { return scene.ends.right == hompm::End::free ? 0.3 * X / length : 0.6 * (1.0 - 2.0 * X / length); };
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double X = p.reference_position[i];
+    p.displacement[i] = u(X);
+    p.position[i] = X + u(X);
+    p.stretch[i] = 1.0 + slope(X);
+    p.volume[i] = p.reference_volume[i] * p.stretch[i];
+    std::visit([&](const auto& law) { p.stress[i] = law.stress(p.stretch[i]); },
+               hompm::make_material(scene.material));
+  }
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("the critical step is that of a dense eigenvalue solve to 1 %, whatever the configuration") {
+  const auto scheme =
+      hompm::find_scheme(GENERATE(as<std::string>{}, "classical", "bspline", "tielen2017", "high-order"));
+  const std::string law = GENERATE(as<std::string>{}, "rate", "hencky", "neo-hookean");
+  const std::string right = GENERATE(as<std::string>{}, "fixed", "free");
+  const int per_cell = GENERATE(3, 4);
+  for (int degree = scheme.lowest_degree; degree <= scheme.highest_degree; ++degree) {
+    INFO(scheme.name << " p = " << degree << ", " << per_cell << " particles per cell, " << law << ", "
+                     << right);
+    const Scene scene = bar(scheme.name, degree, per_cell, right, law);
+    hompm::CriticalStep critical(scene);
+    hompm::LinearStep linear(scene);
+    for (const State& state : {hompm::initial_state(scene), stretched_state(scene)}) {
+      linear.linearise(state);
+      const double exact = dense_limit(linear, 2.0);
+      CHECK(std::abs(critical.at(state) - exact) <= 0.01 * exact);
+    }
+    for (const double cut : {1e-6, 0.3, 0.7}) {
+      linear.linearise_with_cut(hompm::initial_state(scene), cut);
+      const double exact = dense_limit(linear, 2.0);
+      CHECK(std::abs(critical.with_cut(cut) - exact) <= 0.01 * exact);
+    }
+  }
+}
+
+TEST_CASE("waves that are faster in space make the critical step smaller by as much") {
+  // docs/method.md, "Materials": c for rate, c √(1 − ln λ) for hencky, c √((λ² + 1)/2) for neo-hookean.
+  const auto ratio = [](const std::string& law, double stretch) {
+    const Scene scene = bar("bspline", 2, 4, "fixed", law);
+    State state = hompm::initial_state(scene);
+    hompm::CriticalStep critical(scene);
+    const double before = critical.at(state);
+    for (double& l : state.particles.stretch) l = stretch;
+    std::visit(
+        [&](const auto& m) {
+          for (double& s : state.particles.stress) s = m.stress(stretch);
+        },
+        hompm::make_material(scene.material));
+    for (double& m : state.particles.mass) m /= stretch;  // in place: the same volume holds more or less
+    return before / critical.at(state);
+  };
+  const double stretch = 0.5;
+  CHECK(std::abs(ratio("rate", stretch) - 1.0) < 0.02);
+  CHECK(std::abs(ratio("hencky", stretch) - std::sqrt(1.0 - std::log(stretch))) < 0.02);
+  CHECK(std::abs(ratio("neo-hookean", stretch) - std::sqrt((stretch * stretch + 1.0) / 2.0)) < 0.02);
+}
+
+TEST_CASE("10,000 steps of 0.98 of the critical one are bounded, of 1.05 they grow") {
+  const auto scheme =
+      hompm::find_scheme(GENERATE(as<std::string>{}, "classical", "bspline", "tielen2017", "high-order"));
+  const std::string right = GENERATE(as<std::string>{}, "fixed", "free");
+  for (int degree = scheme.lowest_degree; degree <= scheme.highest_degree; ++degree) {
+    INFO(scheme.name << " p = " << degree << ", right end " << right);
+    // Nothing moves with the linear law: the limit is that of one configuration, and growth is exponential.
+    const Scene scene = bar(scheme.name, degree, 4, right, "linear");
+    const double critical = hompm::critical_time_step(scene);
+    const auto largest_velocity = [&](double fraction, int steps) {
+      hompm::Simulation simulation(scene, fraction * critical);
+      auto& velocity = simulation.state().particles.velocity;
+      std::uint32_t seed = 7;
+      for (double& v : velocity) {
+        seed = 1664525u * seed + 1013904223u;
+        v = static_cast<double>(seed >> 8) / 8388608.0 - 1.0;
+      }
+      for (int step = 0; step < steps; ++step) simulation.step();
+      double largest = 0.0;
+      for (const double v : velocity) largest = std::max(largest, std::abs(v));
+      return largest;
+    };
+    // A mode of amplitude 1 may grow by 1/√(1 − 0.98²) = 5 between two extremes; a few of them add up.
+    CHECK(largest_velocity(0.98, 10000) < 20.0);
+    // 2 arcosh(1.05) = 0.63 a step: 1e27 after a hundred, from whatever part of it there was.
+    CHECK(largest_velocity(1.05, 150) > 1e9);
+  }
+}
