@@ -129,7 +129,7 @@ def worst_stress(report):
     return report["errors"]["stress"]["max"] / WEIGHT
 
 
-def settled(tools, modulus=1e4, step_fraction=0.6, degrees=(2, 3, 4, 5)):
+def settled(tools, modulus=1e4, step_fraction=0.55, degrees=(2, 3, 4, 5)):
     settled_scene(tools)
     cells = [8, 16, 32, 64]
     runs = [[["--scene", "settled.toml", "--degree", p, "--cells", n, "--step-fraction", step_fraction, "--end-time", "10",

@@ -29,9 +29,11 @@ material = { law = ")" + law + R"(", density = 1.0, youngs_modulus = 1.0 }
 ends.right = ")" + right + R"("
 [scheme]
 name = ")" + scheme + R"("
-degree = )" + std::to_string(degree) + R"(
+degree = )" + std::to_string(degree) +
+                                R"(
 cells = 16
-particles_per_cell = )" + std::to_string(per_cell) + R"(
+particles_per_cell = )" + std::to_string(per_cell) +
+                                R"(
 step_fraction = 0.5
 )",
                             "bar", {});
@@ -57,8 +59,12 @@ State stretched_state(const Scene& scene) {
   State state = hompm::initial_state(scene);
   hompm::Particles& p = state.particles;
   const double length = scene.body.length;
-  const auto u = [&](double X) { return scene.ends.right == hompm::End::free ? 0.15 * X * X / length : 0.6 * X * (length - X) / length; };
-  const auto slope = [&](double X) { return scene.ends.right == hompm::End::free ? 0.3 * X / length : 0.6 * (1.0 - 2.0 * X / length); };
+  const auto u = [&](double X) {
+    return scene.ends.right == hompm::End::free ? 0.15 * X * X / length : 0.6 * X * (length - X) / length;
+  };
+  const auto slope = [&](double X) {
+    return scene.ends.right == hompm::End::free ? 0.3 * X / length : 0.6 * (1.0 - 2.0 * X / length);
+  };
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double X = p.reference_position[i];
     p.displacement[i] = u(X);

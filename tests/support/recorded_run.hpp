@@ -78,7 +78,8 @@ inline std::vector<double> numbers_of(const RecordedRun& run) {
   add(r.end);
   for (const double value :
        {r.largest_residual, r.largest_momentum_residual, r.largest_internal_force_sum, r.largest_energy,
-        r.largest_momentum, r.largest_step_fraction, r.largest_wave_speed, static_cast<double>(r.steps), static_cast<double>(r.at_rest)})
+        r.largest_momentum, r.largest_step_fraction, r.largest_wave_speed, static_cast<double>(r.steps),
+        static_cast<double>(r.at_rest)})
     all.push_back(value);
   return all;
 }

@@ -56,9 +56,8 @@ double largest_modulus(Rows a) {
 
 }  // namespace
 
-SpectralRadius spectral_radius(
-    std::size_t size, const std::function<void(const Vector& x, Vector& y)>& apply, double tolerance,
-    int most) {
+SpectralRadius spectral_radius(std::size_t size, const std::function<void(const Vector& x, Vector& y)>& apply,
+                               double tolerance, int most) {
   SpectralRadius result;
   std::vector<Vector> basis{scattered(size)};
   Vector next(size);

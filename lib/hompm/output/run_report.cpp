@@ -109,7 +109,8 @@ std::string run_summary(const RunReport& report) {
   text += "  time      " + std::to_string(result.steps) + " steps of " + brief(stepping.time_step) +
           " s to t = " + to_text(result.end.time) + " s; the critical step is " +
           brief(stepping.critical_time_step) + " s";
-  if (const double met = result.largest_step_fraction; met > 1.0 && stepping.time_step <= stepping.critical_time_step)
+  if (const double met = result.largest_step_fraction;
+      met > 1.0 && stepping.time_step <= stepping.critical_time_step)
     text += ", and the step was " + brief(met) + " of it for a while";
   text += "\n";
   if (scene.rest)

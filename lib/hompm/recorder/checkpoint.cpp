@@ -22,7 +22,8 @@ template <class Any, class Visit>
 void visit_sums(Any& point, Visit visit) {
   // Every member is named, so that a new one does not compile before it has its place here.
   auto& [state, extremes, supplied, quiet_steps] = point;
-  auto& [residual, momentum_residual, internal_force_sum, energy, momentum, step_fraction, wave_speed] = extremes;
+  auto& [residual, momentum_residual, internal_force_sum, energy, momentum, step_fraction, wave_speed] =
+      extremes;
   visit(residual);
   visit(momentum_residual);
   visit(internal_force_sum);
