@@ -23,7 +23,8 @@ EffectType mass_damping() {
                           .unit = "1/s",
                           .meaning = "a mode of small amplitude decays with rate/2",
                           .minimum = 0.0}},
-          .join = join};
+          .join = join,
+          .damping_rate = [](const EffectSpec& spec) { return spec.number("rate"); }};
 }
 
 }  // namespace hompm::detail

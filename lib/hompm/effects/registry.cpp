@@ -34,4 +34,11 @@ double viscous_time(const Scene& scene) {
   return sum;
 }
 
+double damping_rate(const Scene& scene) {
+  double sum = 0.0;
+  for (const EffectSpec& spec : scene.effects)
+    if (const auto rate = find_effect(spec).damping_rate; rate != nullptr) sum += rate(spec);
+  return sum;
+}
+
 }  // namespace hompm

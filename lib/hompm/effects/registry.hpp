@@ -41,6 +41,8 @@ struct EffectType {
   double (*viscous_time)(const EffectSpec& spec, const Scene& scene) = nullptr;
   /// Changes the state at t = 0, before the plan is made: fields that only this effect needs, initial values.
   void (*prepare)(const EffectSpec& spec, const Scene& scene, State& state) = nullptr;
+  /// β (1/s) where the effect is the body force −β v, likewise.
+  double (*damping_rate)(const EffectSpec& spec) = nullptr;
 };
 
 /// All effects, in the order in which `--list` shows them.
@@ -54,5 +56,7 @@ void prepare_effects(const Scene& scene, State& state);
 
 /// What `viscous_time` of all effects of the scene comes to (s).
 double viscous_time(const Scene& scene);
+/// What `damping_rate` of all effects of the scene comes to (1/s).
+double damping_rate(const Scene& scene);
 
 }  // namespace hompm

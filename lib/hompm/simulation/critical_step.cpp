@@ -2,6 +2,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/error.hpp>
 #include <hompm/numerics/spectral_radius.hpp>
 #include <hompm/scheme/scheme.hpp>
@@ -56,6 +57,9 @@ Scene ends_of(const Scene& scene) {
 
 CriticalStep::CriticalStep(const Scene& scene)
     : phase_(largest_stable_phase(splitting(scene.scheme.choices.time_integrator))),
+      viscous_time_(viscous_time(scene)),
+      damping_rate_(damping_rate(scene)),
+      relaxation_rate_(scene.scheme.relaxation_rate),
       start_(initial_state(scene)),
       linear_(scene) {}
 
@@ -76,7 +80,11 @@ double CriticalStep::of_linearised() {
   const auto radius = numerics::spectral_radius(
       linear_.size(), [&](const auto& stress, auto& result) { linear_.apply(stress, result); }, tolerance,
       most_rounds);
-  return phase_ / std::sqrt(radius.value);
+  // v' = v − Δt (ω² σ + 2 b v), σ' = σ + Δt v' is stable up to Δt² ω² + 4 Δt b = 4 (docs/stability.md).
+  const double b = 0.5 * (viscous_time_ * radius.value + damping_rate_);
+  const double limit = phase_ / (b + std::sqrt(b * b + radius.value));
+  // u += Δt/τ (û − u) turns the hidden part of u around at Δt = τ, and lets it grow from 2 τ on.
+  return limit * relaxation_rate_ > 2.0 ? 2.0 / relaxation_rate_ : limit;
 }
 
 bool moving_free_end(const Scene& scene) {

@@ -11,8 +11,8 @@ namespace hompm {
 /// The critical step of a scheme in any configuration. The scheme's own step, linearised there
 /// (simulation/linear_step.hpp), has modes of the angular frequency ω; with Euler–Cromer and leapfrog it is
 /// stable exactly when Δt ω ≤ 2 for all of them, other compositions of kicks and drifts have a limit of their
-/// own (derived in docs/stability.md). The largest ω is found to 1 %, from a fixed start: the same
-/// configuration gives the same bits.
+/// own (derived in docs/stability.md); viscosity and damping make it smaller. The largest ω is found to 1 %,
+/// from a fixed start: the same configuration gives the same bits.
 class CriticalStep {
  public:
   /// Throws `SceneError` when the scene cannot be started.
@@ -27,7 +27,10 @@ class CriticalStep {
  private:
   double of_linearised();
 
-  double phase_;  ///< the largest stable ω Δt
+  double phase_;         ///< the largest stable ω Δt
+  double viscous_time_;  ///< s, of the effects
+  double damping_rate_;  ///< 1/s
+  double relaxation_rate_;
   State start_;
   LinearStep linear_;
 };

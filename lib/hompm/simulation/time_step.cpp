@@ -1,7 +1,6 @@
 #include <cmath>
 #include <string>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/simulation/critical_step.hpp>
@@ -23,13 +22,6 @@ double asked_step(const Scene& scene, double critical) {
   return *scheme.courant * (scene.body.length / scheme.cells) / wave_speed;
 }
 
-/// Of a mode of frequency ω a step makes v' = v − Δt ω²(σ + τ v), σ' = σ + Δt v'. It is stable up to
-/// Δt² ω² + 2 Δt τ ω² = 4, and without τ up to 2/ω.
-double with_viscosity(double critical, double viscous_time) {
-  if (viscous_time == 0.0) return critical;
-  return critical * critical / (viscous_time + std::sqrt(viscous_time * viscous_time + critical * critical));
-}
-
 }  // namespace
 
 TimeStepping time_stepping(const Scene& scene) {
@@ -39,7 +31,7 @@ TimeStepping time_stepping(const Scene& scene) {
   const Origin origin = said != scene.origins.end() ? said->second : Origin{key};
 
   TimeStepping result;
-  result.critical_time_step = with_viscosity(critical_time_step(scene), viscous_time(scene));
+  result.critical_time_step = critical_time_step(scene);
   const double asked = asked_step(scene, result.critical_time_step);
   if (asked > result.critical_time_step && !scene.scheme.allow_unstable)
     throw SceneError(origin, key + ": a time step of " + to_text(asked) +
