@@ -105,7 +105,7 @@ std::string critical_step_text(const hompm::Scene& scene) {
           std::to_string(scene.scheme.particles_per_cell) +
           " particles per cell                 step, s   c dt/h\n";
   hompm::CriticalStep critical(scene);
-  add("at the start", critical.at(hompm::initial_state(scene)));
+  add("at the start", critical.at_start());
   if (moving_free_end(scene))
     for (const double cut : {1e-6, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
       add("free end " + to_text(cut) + " cells beyond a breakpoint", critical.with_cut(cut));

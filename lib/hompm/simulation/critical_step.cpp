@@ -60,7 +60,7 @@ CriticalStep::CriticalStep(const Scene& scene)
       viscous_time_(viscous_time(scene)),
       damping_rate_(damping_rate(scene)),
       relaxation_rate_(scene.scheme.relaxation_rate),
-      start_(initial_state(scene)),
+      start_(Simulation(scene, 1.0).state()),
       linear_(scene) {}
 
 double CriticalStep::at(const State& state) {
@@ -94,7 +94,7 @@ bool moving_free_end(const Scene& scene) {
 
 double critical_time_step(const Scene& scene) {
   CriticalStep whole(scene);
-  double least = whole.at(initial_state(scene));
+  double least = whole.at_start();
   if (!moving_free_end(scene)) return least;
 
   CriticalStep ends(ends_of(scene));

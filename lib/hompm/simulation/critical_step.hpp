@@ -21,6 +21,8 @@ class CriticalStep {
   /// In the configuration of `state`, a state of the scene (s). Throws `InvalidRun` where a step would.
   double at(const State& state);
 
+  double at_start() { return at(start_); }
+
   /// At the start, with the free ends that move `cut` of a cell beyond a breakpoint each.
   double with_cut(double cut);
 
