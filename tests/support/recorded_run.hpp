@@ -25,7 +25,13 @@ material = { law = ")" + (kinematics == "finite" ? "hencky" : "linear") +
 initial.velocity = { shape = "sine", amplitude = 0.3, mode = 1 }
 ends.right = "free"
 effect = [ { type = "gravity", acceleration = -9.81 }, { type = "traction", value = 100 },
-           { type = "mass-damping", rate = 2 }, { type = "local-damping", coefficient = 0.1 } ]
+           { type = "mass-damping", rate = 2 }, { type = "local-damping", coefficient = 0.1 })" +
+                         (integrator == "blanes-moan" ? "" : R"(, { type = "viscosity", viscosity = 1 },
+           { type = "bulk-viscosity" })") +
+                         (kinematics == "finite"
+                              ? ""
+                              : R"(, { type = "plasticity", yield_stress = 100, tangent_modulus = 2e3 })") +
+                         R"( ]
 output = { snapshots = 4, history = 9 }
 [scheme]
 cells = 8

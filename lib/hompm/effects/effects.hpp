@@ -14,5 +14,6 @@ EffectType local_damping();
 EffectType viscosity();
 EffectType bulk_viscosity();
 EffectType manufactured();
+EffectType plasticity();
 
 }  // namespace hompm::detail

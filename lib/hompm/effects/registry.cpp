@@ -12,6 +12,7 @@ const EffectCatalogue& effect_catalogue() {
       detail::viscosity(),       //
       detail::bulk_viscosity(),  //
       detail::manufactured(),    //
+      detail::plasticity(),      //
   };
   return catalogue;
 }

@@ -38,6 +38,8 @@ struct Plan {
   std::array<std::vector<Stage>, static_cast<std::size_t>(Phase::count_)> phases;
   /// Potential energies (J/m²) of the loads that have one.
   std::vector<std::function<double(const State&)>> potentials;
+  /// Energies (J/m²) that the body stores beside ψ(λ) of the law.
+  std::vector<std::function<double(const State&)>> stored_energies;
   /// Each adds to one stress (Pa) per particle what acts beside that of the law.
   std::vector<std::function<void(const State&, std::vector<double>&)>> extra_stresses;
 

@@ -27,6 +27,7 @@ struct Particles {
   std::vector<double> volume;              ///< V = V0 λ, m (V0 with infinitesimal kinematics)
   std::vector<double> stretch;             ///< λ
   std::vector<double> stress;              ///< σ, Pa
+  std::vector<double> plastic_strain;      ///< ε_p; empty unless an effect needs it
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }  ///< markers included
 };

@@ -18,14 +18,15 @@ enum class Site {
 
 /// Calls `visit(std::string_view name, Site site, std::span values)` for every field that changes in a run,
 /// always in the same order. `values` holds `double`, `std::int32_t` or `std::int64_t`, const where the state
-/// is. Left out is what follows from the scene alone: grid, ends, kinematics, number of markers.
+/// is. Left out is what nothing called for, and what follows from the scene alone: grid, ends, kinematics,
+/// number of markers.
 template <class AnyState, class Visit>
 void visit_fields(AnyState& state, Visit visit) {
   // Every member is named, so that a new one does not compile before it has its place here.
   auto& [step, time, position_time, time_step, kick, drift, grid, ends, moves, total_mass, left_boundary,
          right_boundary, left_stress, right_stress, particles, basis, fields, balance] = state;
   auto& [markers, reference_position, displacement, position, velocity, mass, reference_density,
-         reference_volume, volume, stretch, stress] = particles;
+         reference_volume, volume, stretch, stress, plastic_strain] = particles;
   auto& [first, values, gradients] = basis;
   auto& [grid_mass, internal_force, force, acceleration, momentum, grid_velocity] = fields;
   auto& [dissipated, external_work, impulse] = balance;
@@ -51,6 +52,7 @@ void visit_fields(AnyState& state, Visit visit) {
   visit("particles.volume", Site::particle, std::span(volume));
   visit("particles.stretch", Site::particle, std::span(stretch));
   visit("particles.stress", Site::particle, std::span(stress));
+  if (!plastic_strain.empty()) visit("particles.plastic_strain", Site::particle, std::span(plastic_strain));
   visit("basis.first", Site::particle, std::span(first));
   visit("basis.values", Site::particle_function, std::span(values));
   visit("basis.gradients", Site::particle_function, std::span(gradients));

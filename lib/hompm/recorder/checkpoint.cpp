@@ -100,7 +100,7 @@ Checkpoint read_content(std::string_view bytes, const std::string& source) {
 }  // namespace
 
 Checkpoint first_checkpoint(const Scene& scene) {
-  return {.scene = scene, .history = {}, .snapshots = {}, .point = {initial_state(scene)}};
+  return {.scene = scene, .history = {}, .snapshots = {}, .point = {start_state(scene)}};
 }
 
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {

@@ -24,13 +24,13 @@ void check_particle_count(const SchemeSpec& scheme) {
                        " reconstructs fields from at least " + std::to_string(fewest));
 }
 
-State start_of(const Scene& scene) {
+}  // namespace
+
+State start_state(const Scene& scene) {
   State state = initial_state(scene);
   prepare_effects(scene, state);
   return state;
 }
-
-}  // namespace
 
 Plan make_plan(const Scene& scene, const State& state) {
   check_particle_count(scene.scheme);
@@ -48,7 +48,7 @@ Plan make_plan(const Scene& scene, const State& state) {
 Simulation::Simulation(const Scene& scene, double time_step)
     : material_(make_material(scene.material)),
       splitting_(splitting(scene.scheme.choices.time_integrator)),
-      state_(start_of(scene)),
+      state_(start_state(scene)),
       plan_(make_plan(scene, state_)) {
   state_.time_step = time_step;
   try {
@@ -141,6 +141,7 @@ HistoryRow Simulation::history(double time) const {
           row.stored += p.reference_volume[i] * law.stored_energy(p.stretch[i]);
       },
       material_);
+  for (const auto& energy : plan_.stored_energies) row.stored += energy(state);
   for (const auto& potential : plan_.potentials) row.gravity += potential(state);
   row.impulse = state.balance.impulse;
   row.residual = total_energy(row) - start_energy_;

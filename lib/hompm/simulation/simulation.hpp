@@ -11,6 +11,9 @@ namespace hompm {
 /// The stages that the scene and its scheme call for. Throws `SceneError` when they do not go together.
 Plan make_plan(const Scene& scene, const State& state);
 
+/// The initial state of a scene, with what its effects add and change.
+State start_state(const Scene& scene);
+
 class Simulation {
  public:
   /// State and plan at t = 0, with steps of `time_step` (s). Throws `SceneError` when scene and scheme do not
