@@ -65,7 +65,7 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
   using hompm::Phase;
   const hompm::Simulation simulation(scene, stepping.time_step);
   const bool moves = scene.kinematics == hompm::Kinematics::finite;
-  const std::array<std::pair<Phase, std::string>, 9> phases{{
+  const std::array<std::pair<Phase, std::string>, 10> phases{{
       {Phase::geometry, moves ? "geometry" : "geometry (once: nothing moves)"},
       {Phase::end_stress, "stress at the ends"},
       {Phase::internal_force, "internal force"},
@@ -73,6 +73,7 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
       {Phase::damping_force, "damping force"},
       {Phase::acceleration, "acceleration"},
       {Phase::velocity, "velocity"},
+      {Phase::constraint, "constraint"},
       {Phase::work, "work"},
       {Phase::motion, "motion"},
   }};

@@ -7,6 +7,7 @@ Lines of the scene say how exact it must be:
 
     # expect: displacement 1e-3                        relative L2 error of that field against the reference solution
     # expect: stress at X = 0.5 is -4e4 within 1e-2    relative error at a point at the end, of a solution the scene explains
+    # expect: momentum.end is -0.1 within 1e-3         absolute error of a number of run.json
 """
 import csv
 import json
@@ -45,6 +46,11 @@ def main():
             if point := re.fullmatch(r"(\w+) at X = (\S+) is (\S+) within (\S+)", line):
                 field, place, value, bound = point[1], *map(float, point.groups()[1:])
                 error = abs(at_end(output, field, place) / value - 1.0)
+            elif number := re.fullmatch(r"([\w.]+) is (\S+) within (\S+)", line):
+                found = report
+                for key in number[1].split("."):
+                    found = found[int(key) if key.isdigit() else key]
+                error, bound = abs(found - float(number[2])), float(number[3])
             else:
                 field, bound = line.split()[0], float(line.split()[1])
                 error = report["errors"][field]["relative_l2"]

@@ -15,5 +15,8 @@ EffectType viscosity();
 EffectType bulk_viscosity();
 EffectType manufactured();
 EffectType plasticity();
+EffectType piston();
+EffectType wall();
+EffectType absorbing();
 
 }  // namespace hompm::detail

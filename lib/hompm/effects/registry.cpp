@@ -13,6 +13,9 @@ const EffectCatalogue& effect_catalogue() {
       detail::bulk_viscosity(),  //
       detail::manufactured(),    //
       detail::plasticity(),      //
+      detail::piston(),          //
+      detail::wall(),            //
+      detail::absorbing(),       //
   };
   return catalogue;
 }

@@ -43,6 +43,9 @@ struct EffectType {
   void (*prepare)(const EffectSpec& spec, const Scene& scene, State& state) = nullptr;
   /// β (1/s) where the effect is the body force −β v, likewise.
   double (*damping_rate)(const EffectSpec& spec) = nullptr;
+  /// Decides how an end moves (its parameter `end`, which must be free): one such effect at each end, joined
+  /// after all others.
+  bool holds_end = false;
 };
 
 /// All effects, in the order in which `--list` shows them.

@@ -21,24 +21,24 @@ std::int64_t number(const State& state, std::size_t index) {
   return static_cast<std::int64_t>(index - markers);
 }
 
+}  // namespace
+
 std::string grid_text(const State& state) {
   return "[" + to_text(state.grid.origin()) + ", " + to_text(state.grid.breakpoint(state.grid.cells())) +
          "] m";
 }
 
-}  // namespace
-
 void throw_left_grid(const State& state, std::size_t particle) {
   invalid(state, number(state, particle),
           "left the grid: its position is " + text(state.particles.position[particle]) + ", the grid is " +
               grid_text(state) +
-              "; a step that is too large or too small a scheme.margin_cells are the usual causes");
+              "; a step that is too large or too small a grid are the usual causes: " + raise_grid);
 }
 
 void throw_boundary_left_grid(const State& state, double boundary) {
   invalid(state, -1,
           "the free end left the grid: it is at " + text(boundary) + ", the grid is " + grid_text(state) +
-              "; raise scheme.margin_cells");
+              "; " + raise_grid);
 }
 
 void throw_inverted(const State& state, std::size_t particle, double stretch) {

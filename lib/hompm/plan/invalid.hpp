@@ -1,11 +1,18 @@
 // How a stage says that the run stopped being valid.
 #pragma once
 
+#include <string>
+
 #include <hompm/plan/state.hpp>
 
 namespace hompm::detail {
 
 /// Each throws `InvalidRun` with the step under way, its time, and the particle where there is one.
+/// "[−1, 2] m"
+std::string grid_text(const State& state);
+/// What to do about a grid that is too small, for the end of a message.
+inline constexpr const char* raise_grid = "set grid.from and grid.to, or raise scheme.margin_cells";
+
 [[noreturn]] void throw_left_grid(const State& state, std::size_t particle);
 [[noreturn]] void throw_boundary_left_grid(const State& state, double boundary);
 [[noreturn]] void throw_inverted(const State& state, std::size_t particle, double stretch);

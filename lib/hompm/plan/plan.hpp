@@ -22,6 +22,7 @@ enum class Phase {
   damping_force,   ///< effects that need the whole out-of-balance force
   acceleration,    ///< grid acceleration, particle velocity
   velocity,        ///< particle velocity to the grid
+  constraint,      ///< conditions on the velocity of an end, by the impulse that meets them
   work,            ///< effects book what their forces did
   motion,          ///< displacement, stretch, stress
   count_
@@ -66,6 +67,11 @@ struct PlanBuilder {
   std::function<void(const State&, std::vector<double>&)> velocity_gradient = {};
   /// The stress of the law while effects add to it; of the first effect that does.
   std::shared_ptr<std::vector<double>> law_stress = {};
+  /// Turns impulses b_i on the grid functions into changes of the grid velocity, M⁻¹ b with the mass by which
+  /// the scheme divides forces; fixed ends stay at rest. Returns the sum of the impulses that hold them.
+  std::function<double(const State&, std::vector<double>&)> divide_by_mass = {};
+  /// The scheme's projection of particle velocities (or changes of them) to the grid.
+  std::function<void(const State&, const std::vector<double>&, std::vector<double>&)> project = {};
 
   void add(Phase phase, std::string name, std::function<void(State&)> run, std::string arrays = {}) {
     plan.phases[static_cast<std::size_t>(phase)].push_back(

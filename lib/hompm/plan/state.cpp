@@ -1,4 +1,5 @@
-#include <hompm/numerics/elementary.hpp>
+#include <cmath>
+
 #include <hompm/plan/state.hpp>
 
 namespace hompm {
@@ -6,9 +7,15 @@ namespace {
 
 numerics::SplineSpace make_grid(const Scene& scene) {
   const double width = scene.body.length / scene.scheme.cells;
-  const int left = scene.ends.left == End::free ? scene.scheme.margin_cells : 0;
-  const int right = scene.ends.right == End::free ? scene.scheme.margin_cells : 0;
-  return {scene.scheme.degree, scene.scheme.cells + left + right, -left * width, width};
+  // Cells of a grid that reaches `way` beyond an end.
+  const auto margin = [&](End end, std::optional<double> way) {
+    if (end == End::fixed) return 0;
+    return way ? static_cast<int>(std::ceil(*way / width - 1e-9)) : scene.scheme.margin_cells;
+  };
+  const auto& [from, to] = scene.grid;
+  const int left = margin(scene.ends.left, from ? std::optional(scene.body.left() - *from) : std::nullopt);
+  const int right = margin(scene.ends.right, to ? std::optional(*to - scene.body.right()) : std::nullopt);
+  return {scene.scheme.degree, scene.scheme.cells + left + right, scene.body.left() - left * width, width};
 }
 
 }  // namespace
@@ -34,9 +41,13 @@ State initial_state(const Scene& scene) {
                                    (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count)));
   if (markers) p.reference_position.push_back(scene.body.length);
   const std::size_t sites = p.reference_position.size();
+  p.velocity.assign(sites, 0.0);
+  if (const auto& initial = scene.initial_velocity)
+    for (std::size_t i = 0; i < sites; ++i)
+      p.velocity[i] = velocity_at(*initial, p.reference_position[i] / scene.body.length, scene.body.length);
+  for (double& X : p.reference_position) X += scene.body.left();
   p.position = p.reference_position;
   p.displacement.assign(sites, 0.0);
-  p.velocity.assign(sites, 0.0);
   p.reference_volume.assign(sites, volume);
   p.mass.assign(sites, scene.material.density * volume);
   if (markers) p.mass.front() = p.mass.back() = p.reference_volume.front() = p.reference_volume.back() = 0.0;
@@ -44,13 +55,9 @@ State initial_state(const Scene& scene) {
   p.reference_density.assign(sites, scene.material.density);
   p.stretch.assign(sites, 1.0);
   p.stress.assign(sites, 0.0);
-  if (const auto& initial = scene.initial_velocity) {
-    for (std::size_t i = 0; i < sites; ++i)
-      p.velocity[i] = initial->amplitude *
-                      numerics::sin_pi(initial->mode * (p.reference_position[i] / scene.body.length));
-  }
   for (const double mass : p.mass) state.total_mass += mass;
-  state.right_boundary = scene.body.length;
+  state.left_boundary = scene.body.left();
+  state.right_boundary = scene.body.right();
 
   const auto stencil = static_cast<std::size_t>(scene.scheme.degree) + 1;
   state.basis.first.assign(sites, 0);

@@ -38,13 +38,13 @@ class Lines {
         state_(2 * nodes_),
         stress_(degree_ + 1) {
     for (double& entry : gradient_) entry *= 2.0 / width_;
-    const InitialVelocity initial = scene.initial_velocity.value_or(InitialVelocity{});
     for (std::size_t e = 0; e < elements_; ++e) {
       for (std::size_t i = 0; i <= degree_; ++i) {
         const std::size_t node = e * degree_ + i;
         const double place =
             (static_cast<double>(e) + 0.5 * (1.0 + rule_.nodes[i])) / static_cast<double>(elements_);
-        state_[nodes_ + node] = initial.amplitude * numerics::sin_pi(initial.mode * place);
+        if (scene.initial_velocity)
+          state_[nodes_ + node] = velocity_at(*scene.initial_velocity, place, scene.body.length);
         inverse_mass_[node] += 0.5 * width_ * density_ * rule_.weights[i];
       }
     }

@@ -100,7 +100,8 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
 
 std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads) {
   const bool free = loads.gravity.empty() && !loads.damped();
-  if (scene.material.law != "linear" || !free || !scene.initial_velocity) return std::nullopt;
+  if (scene.material.law != "linear" || !free) return std::nullopt;
+  if (!scene.initial_velocity || scene.initial_velocity->shape != "sine") return std::nullopt;
   const LinearBody body{scene.body.length, scene.material.density,
                         std::sqrt(scene.material.youngs_modulus / scene.material.density)};
   const auto at = [body, initial = *scene.initial_velocity](double time, std::span<const double> X) {
@@ -122,9 +123,8 @@ std::optional<Reference> manufactured_reference(const Scene& scene) {
   return exact("manufactured solution u = G sin(pi X/L) sin(pi c t/L)", at);
 }
 
-}  // namespace
-
-std::optional<Reference> make_reference(const Scene& scene) {
+/// For a body that starts at X = 0.
+std::optional<Reference> reference_at_origin(const Scene& scene) {
   if (auto manufactured = manufactured_reference(scene)) return manufactured;
   const std::optional<Loads> loads = loads_of(scene);
   if (!loads) return std::nullopt;
@@ -147,6 +147,19 @@ std::optional<Reference> make_reference(const Scene& scene) {
   const Resolution coarse{fine.elements / 2, fine.degree, fine.step_factor};
   return estimated("method of lines (Legendre spectral elements, Runge-Kutta)",
                    method_of_lines(scene, *loads, fine), method_of_lines(scene, *loads, coarse));
+}
+
+}  // namespace
+
+std::optional<Reference> make_reference(const Scene& scene) {
+  std::optional<Reference> reference = reference_at_origin(scene);
+  if (reference && scene.body.left() != 0.0)
+    reference->at = [at = reference->at, left = scene.body.left()](double time, std::span<const double> X) {
+      std::vector<double> places(X.begin(), X.end());
+      for (double& place : places) place -= left;
+      return at(time, places);
+    };
+  return reference;
 }
 
 }  // namespace hompm

@@ -14,7 +14,11 @@
 namespace hompm {
 
 struct Body {
-  double length = 0.0;  ///< m; material at [0, length] at the start
+  double length = 0.0;          ///< m
+  std::optional<double> start;  ///< m, of the left end at t = 0; 0 where it is not said
+
+  [[nodiscard]] double left() const { return start.value_or(0.0); }
+  [[nodiscard]] double right() const { return left() + length; }
 };
 
 struct MaterialSpec {
@@ -23,12 +27,17 @@ struct MaterialSpec {
   double youngs_modulus = 0.0;  ///< Pa
 };
 
-/// v(X, 0) = amplitude · sin(mode π X / length)
+/// With X from the left end of the body: sine, v = amplitude · sin(mode π X / length); uniform, v =
+/// amplitude; linear, v = amplitude + gradient · X.
 struct InitialVelocity {
-  std::string shape;       ///< sine
-  double amplitude = 0.0;  ///< m/s
-  int mode = 1;            ///< half waves over the body
+  std::string shape;                    ///< sine, uniform, linear
+  double amplitude = 0.0;               ///< m/s
+  int mode = 1;                         ///< half waves over the body
+  std::optional<double> gradient = {};  ///< 1/s, of the shape linear
 };
+
+/// Velocity (m/s) at t = 0 at the part `place` of the body, from 0 at its left end to 1.
+double velocity_at(const InitialVelocity& initial, double place, double length);
 
 enum class End { fixed, free };
 enum class Kinematics { infinitesimal, finite };
@@ -66,6 +75,12 @@ struct SchemeSpec {
   bool allow_unstable = false;          ///< run with a step above the critical one all the same
 };
 
+/// How far the grid reaches at least; `margin_cells` beyond a free end where it is not said.
+struct GridSpec {
+  std::optional<double> from;  ///< m
+  std::optional<double> to;    ///< m
+};
+
 /// The run ends as soon as the body is at rest: when no particle has moved faster than `speed` for the time a
 /// wave takes to travel the body and back.
 struct Rest {
@@ -87,6 +102,7 @@ struct Scene {
   MaterialSpec material;
   std::optional<InitialVelocity> initial_velocity;
   Ends ends;
+  GridSpec grid;
   std::vector<EffectSpec> effects;
   std::optional<Rest> rest;
   SchemeSpec scheme;

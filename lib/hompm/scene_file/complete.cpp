@@ -163,6 +163,7 @@ void complete(Reading& reading) {
     complete_scheme(reading, *scheme);
     check_choices(reading);
   }
+  check_body(reading);
   check_particle_count(reading);
   check_time_step(reading);
 }

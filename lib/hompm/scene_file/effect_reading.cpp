@@ -56,16 +56,17 @@ void read_parameters(Reading& reading, const EffectType& type, const std::string
   }
 }
 
-// A traction on an end that does not move would do nothing.
+// What acts on an end that does not move would do nothing.
 void check_end(Reading& reading, const EffectSpec& effect, const std::string& path) {
   const auto parameter = effect.parameters.find("end");
-  if (parameter == effect.parameters.end() || effect.type.find("traction") == std::string::npos) return;
+  if (parameter == effect.parameters.end()) return;
   const std::string& end = std::get<std::string>(parameter->second);
   const std::string key = "ends." + end;
   const bool known = reading.has(key) || reading.silent_on(key);
   const bool fixed = (end == "left" ? reading.scene.ends.left : reading.scene.ends.right) == End::fixed;
   if (!known || !fixed) return;
-  reading.report(reading.said.where(path + ".end"), "a traction acts on a free end; " + key + " is fixed");
+  reading.report(reading.said.where(path + ".end"),
+                 "the effect " + effect.type + " acts on a free end; " + key + " is fixed");
 }
 
 }  // namespace

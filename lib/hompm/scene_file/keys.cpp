@@ -62,6 +62,8 @@ std::vector<KeyRow> make_key_table() {
 
       {"body.length", positive("m"), missing, "", "", "length of the undeformed body",
        [](Scene& scene) -> Slot { return &scene.body.length; }},
+      {"body.start", number("m"), derived, "at the origin", "", "where its left end is at t = 0",
+       [](Scene& scene) -> Slot { return &scene.body.start; }},
 
       {"material.law", word({"linear", "rate", "hencky", "neo-hookean"}), missing, "", "", "constitutive law",
        [](Scene& scene) -> Slot { return &scene.material.law; }},
@@ -70,18 +72,27 @@ std::vector<KeyRow> make_key_table() {
       {"material.youngs_modulus", positive("Pa"), missing, "", "", "stiffness of the undeformed material",
        [](Scene& scene) -> Slot { return &scene.material.youngs_modulus; }},
 
-      {"initial.velocity.shape", word({"sine"}), missing, "", "",
-       "velocity at the start: amplitude · sin(mode π X / length)",
+      {"initial.velocity.shape", word({"sine", "uniform", "linear"}), missing, "", "",
+       "velocity at the start: amplitude · sin(mode π X / length), amplitude, amplitude + gradient · X; X "
+       "from the "
+       "left end",
        [](Scene& scene) -> Slot { return &scene.initial_velocity->shape; }},
       {"initial.velocity.amplitude", number("m/s"), missing, "", "", "largest velocity at the start",
        [](Scene& scene) -> Slot { return &scene.initial_velocity->amplitude; }},
       {"initial.velocity.mode", whole(1.0, largest_int), standard, "1", "", "half waves over the body",
        [](Scene& scene) -> Slot { return &scene.initial_velocity->mode; }},
+      {"initial.velocity.gradient", number("1/s"), derived, "", "", "of the shape linear",
+       [](Scene& scene) -> Slot { return &scene.initial_velocity->gradient; }},
 
       {"ends.left", end, standard, "\"fixed\"", "", "the end at X = 0",
        [](Scene& scene) -> Slot { return &scene.ends.left; }},
       {"ends.right", end, standard, "\"fixed\"", "", "the end at X = length",
        [](Scene& scene) -> Slot { return &scene.ends.right; }},
+
+      {"grid.from", number("m"), derived, "", "", "the grid reaches from here, on the side of a free end",
+       [](Scene& scene) -> Slot { return &scene.grid.from; }},
+      {"grid.to", number("m"), derived, "", "", "the grid reaches up to here, on the side of a free end",
+       [](Scene& scene) -> Slot { return &scene.grid.to; }},
 
       {"rest.speed", positive("m/s"), missing, "", "",
        "the run also ends once no particle has moved faster for the time a wave takes through the body and "

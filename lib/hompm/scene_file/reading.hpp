@@ -42,6 +42,9 @@ void read_effects(Reading& reading);
 /// Reports effects that do not go with the rest of the scene, once that is complete.
 void check_effects(Reading& reading);
 
+/// Checks the keys of the body against each other: velocity at the start, grid, what holds its ends.
+void check_body(Reading& reading);
+
 /// Derives the defaults that follow from other keys, and checks the keys against each other.
 void complete(Reading& reading);
 

@@ -11,6 +11,12 @@ void divide_by_mass(const std::vector<double>& field, const std::vector<double>&
   for (std::size_t i = 0; i < count; ++i) result[i] = m[i] > 0.0 ? q[i] / m[i] : 0.0;
 }
 
+void velocity_of(const State& state, const std::vector<double>& momentum, std::vector<double>& velocity) {
+  divide_by_mass(momentum, state.fields.mass, velocity);
+  if (state.ends.left == End::fixed) velocity.front() = 0.0;
+  if (state.ends.right == End::fixed) velocity.back() = 0.0;
+}
+
 void accelerate_lumped(State& state) {
   GridFields& g = state.fields;
   divide_by_mass(g.force, g.mass, g.acceleration);
@@ -20,6 +26,18 @@ void accelerate_lumped(State& state) {
   };
   if (state.ends.left == End::fixed) fix(0);
   if (state.ends.right == End::fixed) fix(g.mass.size() - 1);
+}
+
+double divide_impulses(const State& state, std::vector<double>& field) {
+  double reaction = 0.0;
+  const auto hold = [&](double& impulse) {
+    reaction -= impulse;
+    impulse = 0.0;
+  };
+  if (state.ends.left == End::fixed) hold(field.front());
+  if (state.ends.right == End::fixed) hold(field.back());
+  divide_by_mass(field, state.fields.mass, field);
+  return reaction;
 }
 
 double kinetic_energy(const Particles& particles) {

@@ -16,26 +16,32 @@ void divide_by_mass(const std::vector<double>& field, const std::vector<double>&
 /// a_i = f_i / M_i; functions with no mass are inactive, and at a fixed end the reaction balances the force.
 void accelerate_lumped(State& state);
 
+/// Impulses over M_i, in place; nothing at fixed ends. Returns the impulses that hold these.
+double divide_impulses(const State& state, std::vector<double>& field);
+
+/// Σ_p m_p q_p N_i
+template <int P>
+void sum_weighted(const State& state, const std::vector<double>& data, std::vector<double>& sums) {
+  std::fill(sums.begin(), sums.end(), 0.0);
+  scatter<P>(state, state.basis.values, sums,
+             [mass = state.particles.mass.data(), q = data.data()](std::size_t p) { return mass[p] * q[p]; });
+}
+
 /// Σ_p m_p v_p N_i
 template <int P>
 void sum_momentum(State& state) {
-  auto& momentum = state.fields.momentum;
-  std::fill(momentum.begin(), momentum.end(), 0.0);
-  const Particles& particles = state.particles;
-  scatter<P>(state, state.basis.values, momentum,
-             [mass = particles.mass.data(), velocity = particles.velocity.data()](std::size_t p) {
-               return mass[p] * velocity[p];
-             });
+  sum_weighted<P>(state, state.particles.velocity, state.fields.momentum);
 }
 
-/// v_i = Σ_p m_p v_p N_i / M_i; functions with no mass and fixed ends stand still.
+/// The momenta of all functions, as Σ_p m_p q_p N_i, over M_i; functions with no mass and fixed ends stand
+/// still.
+void velocity_of(const State& state, const std::vector<double>& momentum, std::vector<double>& velocity);
+
+/// v_i = Σ_p m_p v_p N_i / M_i
 template <int P>
 void project_lumped(State& state) {
   sum_momentum<P>(state);
-  GridFields& g = state.fields;
-  divide_by_mass(g.momentum, g.mass, g.velocity);
-  if (state.ends.left == End::fixed) g.velocity.front() = 0.0;
-  if (state.ends.right == End::fixed) g.velocity.back() = 0.0;
+  velocity_of(state, state.fields.momentum, state.fields.velocity);
 }
 
 double kinetic_energy(const Particles& particles);
@@ -44,11 +50,15 @@ template <int P>
 void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
   if (builder.scene.scheme.choices.acceleration_mass == MassForm::lumped) {
     builder.add(Phase::acceleration, "grid acceleration, lumped mass", accelerate_lumped);
+    builder.divide_by_mass = divide_impulses;
   } else {
     builder.add(Phase::acceleration, "grid acceleration, consistent mass", [splines](State& state) {
       state.fields.acceleration = state.fields.force;
       state.balance.impulse += state.kick * splines->solve(state.fields.acceleration);
     });
+    builder.divide_by_mass = [splines](const State&, std::vector<double>& field) {
+      return splines->solve(field);
+    };
   }
   builder.add(Phase::acceleration, "particle velocity (FLIP)", [](State& state) {
     add_at_particles<P>(state, state.kick, state.fields.acceleration, state.particles.velocity);
@@ -61,6 +71,10 @@ void join_projection(PlanBuilder& builder, const std::shared_ptr<Reconstruction>
   switch (builder.scene.scheme.choices.velocity_projection) {
     case VelocityProjection::lumped:
       builder.add(Phase::velocity, "grid velocity, lumped mass", project_lumped<P>);
+      builder.project = [](const State& state, const auto& data, auto& field) {
+        sum_weighted<P>(state, data, field);
+        velocity_of(state, field, field);
+      };
       return;
     case VelocityProjection::consistent:
       builder.add(Phase::velocity, "grid velocity, consistent mass", [splines](State& state) {
@@ -69,12 +83,19 @@ void join_projection(PlanBuilder& builder, const std::shared_ptr<Reconstruction>
         g.velocity = g.momentum;
         splines->solve(g.velocity);
       });
+      builder.project = [splines](const State&, const auto& data, auto& field) {
+        splines->weighted_integrals(data, field);
+        splines->solve(field);
+      };
       return;
     case VelocityProjection::least_squares:
       builder.add(Phase::velocity, "grid velocity, least squares", [least_squares](State& state) {
         state.balance.impulse +=
             least_squares->project(state, state.particles.velocity, state.fields.velocity);
       });
+      builder.project = [least_squares](const State& state, const auto& data, auto& field) {
+        least_squares->project(state, data, field);
+      };
   }
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array force_phases{Phase::end_stress, Phase::internal_force, Phase::external_force,
                                   Phase::damping_force, Phase::acceleration};
-constexpr std::array motion_phases{Phase::velocity, Phase::work, Phase::motion};
+constexpr std::array motion_phases{Phase::velocity, Phase::constraint, Phase::work, Phase::motion};
 
 void check_particle_count(const SchemeSpec& scheme) {
   const SchemeChoices& c = scheme.choices;
@@ -37,11 +37,13 @@ Plan make_plan(const Scene& scene, const State& state) {
   PlanBuilder builder{.scene = scene, .state = state};
   builder.called_by = "scheme " + scene.scheme.name;
   join_scheme(make_material(scene.material), builder);
-  for (const EffectSpec& spec : scene.effects) {
-    const EffectType& type = find_effect(spec);
-    builder.called_by = "effect " + spec.type + " (" + spec.origin.text() + ")";
-    type.join(spec, builder);
-  }
+  for (const bool holding : {false, true})
+    for (const EffectSpec& spec : scene.effects) {
+      const EffectType& type = find_effect(spec);
+      if (type.holds_end != holding) continue;
+      builder.called_by = "effect " + spec.type + " (" + spec.origin.text() + ")";
+      type.join(spec, builder);
+    }
   return builder.plan;
 }
 
@@ -91,9 +93,12 @@ State Simulation::synchronised() const {
   State state = state_;
   if (closing_kick() == 0.0 || state.step == 0) return state;
   state.kick = closing_kick() * state.time_step;
+  state.drift = 0.0;
   state.position_time = state.time;
   if (state.moves) plan_.run(Phase::geometry, state);
   for (const Phase phase : force_phases) plan_.run(phase, state);
+  if (!plan_[Phase::constraint].empty())
+    for (const Phase phase : {Phase::velocity, Phase::constraint}) plan_.run(phase, state);
   return state;
 }
 

@@ -25,8 +25,10 @@ bool ForeignTruth::is_at_rest(double last) const {
 std::optional<ReferenceFields> ForeignTruth::at(const std::string& whose, const ParticleBlock& block) {
   if (!reference_ || block.X.empty()) return std::nullopt;
   std::string reason;
-  if (block.X.front() < 0.0 || block.X.back() > scene_->body.length) {
-    reason = "there are particles outside of the body, 0 <= X <= " + to_text(scene_->body.length) + " m";
+  const Body& body = scene_->body;
+  if (block.X.front() < body.left() || block.X.back() > body.right()) {
+    reason = "there are particles outside of the body, " + to_text(body.left()) +
+             " <= X <= " + to_text(body.right()) + " m";
   } else {
     auto exact = sound_fields(*reference_, block.time, block.X, reason);
     own_error_ = std::max(own_error_, reference_->estimated_error().displacement);

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <limits>
+
+#include <hompm/effects/body_end.hpp>
+
+namespace hompm::detail {
+
+Side side_of(const EffectSpec& spec) { return spec.text("end") == "right" ? Side::right : Side::left; }
+
+EffectParameter which_end(const std::string& standard) {
+  return {.name = "end",
+          .unit = "",
+          .meaning = "which end",
+          .words = {"left", "right"},
+          .default_value = standard};
+}
+
+std::string conflict_of_held_end(const EffectSpec&, const Scene& scene) {
+  if (scene.scheme.choices.time_integrator != TimeIntegrator::blanes_moan) return "";
+  return "it takes a `scheme.time_integrator` whose kicks all go forward in time: \"euler-cromer\" or "
+         "\"leapfrog\", not "
+         "\"blanes-moan\"";
+}
+
+void join_own_stress(Side side, PlanBuilder& builder) {
+  builder.add(Phase::end_stress, "held end: its marker carries its own stress", [side](State& state) {
+    if (side == Side::right)
+      state.right_stress = state.particles.stress.back();
+    else
+      state.left_stress = state.particles.stress.front();
+  });
+}
+
+namespace {
+/// Shut is a gap of less than this part of a cell: far above rounding and what relaxation moves in a step,
+/// far below what the grid resolves.
+bool is_shut(const State& state, double gap) { return gap <= 1e-3 * state.grid.cell_width(); }
+}  // namespace
+
+void carry_contact_stress(State& state, Side side, double gap) {
+  if (!is_shut(state, gap)) return;
+  const bool right = side == Side::right;
+  const double own = right ? state.particles.stress.back() : state.particles.stress.front();
+  (right ? state.right_stress : state.left_stress) += std::min(own, 0.0);
+}
+
+double approach_limit(const State& state, double gap) {
+  if (state.drift > 0.0) return gap / state.drift;
+  return is_shut(state, gap) ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+BodyEnd::BodyEnd(const PlanBuilder& builder, Side side)
+    : divide_by_mass_(builder.divide_by_mass),
+      project_(builder.project),
+      grid_response_(builder.state.fields.mass.size()),
+      particle_response_(builder.state.particles.size()) {
+  const Particles& p = builder.state.particles;
+  const std::size_t outer = side == Side::right ? p.size() - 1 : 0;
+  parts_[0] = {outer, 1.0};
+  if (p.size() == 1) return;
+  const std::size_t next = side == Side::right ? outer - 1 : 1;
+  const double spacing = outward(side) * (p.reference_position[outer] - p.reference_position[next]);
+  const double beyond = 0.5 * p.reference_volume[outer] / spacing;
+  parts_ = {{{outer, 1.0 + beyond}, {next, -beyond}}};
+}
+
+double BodyEnd::position(const State& state) const {
+  double sum = 0.0;
+  for (const auto& [p, weight] : parts_)
+    sum += weight * (state.particles.reference_position[p] + state.particles.displacement[p]);
+  return sum;
+}
+
+template <class Visit>
+void BodyEnd::for_functions(const State& state, Visit visit) const {
+  const auto stencil = static_cast<std::size_t>(state.grid.degree()) + 1;
+  for (const auto& [p, weight] : parts_)
+    for (std::size_t k = 0; k < stencil; ++k)
+      visit(static_cast<std::size_t>(state.basis.first[p]) + k, weight * state.basis.values[p * stencil + k]);
+}
+
+void BodyEnd::find(const State& state) {
+  std::fill(grid_response_.begin(), grid_response_.end(), 0.0);
+  for_functions(state, [&](std::size_t i, double value) { grid_response_[i] += value; });
+  reaction_ = divide_by_mass_(state, grid_response_);
+  const auto stencil = static_cast<std::size_t>(state.grid.degree()) + 1;
+  for (std::size_t p = 0; p < particle_response_.size(); ++p) {
+    const double* n = &state.basis.values[p * stencil];
+    const double* change = &grid_response_[static_cast<std::size_t>(state.basis.first[p])];
+    double sum = 0.0;
+    for (std::size_t k = 0; k < stencil; ++k) sum += n[k] * change[k];
+    particle_response_[p] = sum;
+  }
+  project_(state, particle_response_, grid_response_);
+
+  const GridFields& g = state.fields;
+  compliance_ = velocity_ = 0.0;
+  for_functions(state, [&](std::size_t i, double value) {
+    compliance_ += value * grid_response_[i];
+    velocity_ += value * g.velocity[i];
+  });
+  double acceleration = 0.0;  // by the symmetry of the response
+  for (std::size_t i = 0; i < grid_response_.size(); ++i) acceleration += grid_response_[i] * g.force[i];
+  velocity_before_ = velocity_ - state.kick * acceleration;
+}
+
+void BodyEnd::push(State& state, double impulse) const {
+  GridFields& g = state.fields;
+  auto& velocity = state.particles.velocity;
+  for (std::size_t i = 0; i < grid_response_.size(); ++i) g.velocity[i] += impulse * grid_response_[i];
+  for (std::size_t p = 0; p < velocity.size(); ++p) velocity[p] += impulse * particle_response_[p];
+  for_functions(state, [&](std::size_t i, double value) { g.momentum[i] += impulse * value; });
+  state.balance.impulse += impulse * (1.0 + reaction_);
+}
+
+}  // namespace hompm::detail

@@ -1,0 +1,90 @@
+// A free end of a body as a point on which conditions can be put.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <hompm/effects/registry.hpp>
+#include <hompm/plan/plan.hpp>
+
+namespace hompm::detail {
+
+enum class Side { left, right };
+
+/// +1 at a right end, where +X points outward, −1 at a left one.
+inline double outward(Side side) { return side == Side::right ? 1.0 : -1.0; }
+
+/// The `end` of an effect that has `which_end` among its parameters.
+Side side_of(const EffectSpec& spec);
+EffectParameter which_end(const std::string& standard);
+
+/// Why what holds an end does not go with the scene: it takes kicks that go forward in time.
+std::string conflict_of_held_end(const EffectSpec& spec, const Scene& scene);
+
+/// A marker on this end carries the stress of its own stretch, not one that is applied: what holds the end
+/// answers to it.
+void join_own_stress(Side side, PlanBuilder& builder);
+/// The same, in Phase::end_stress, while a gap (m) is shut and the stress pushes.
+void carry_contact_stress(State& state, Side side, double gap);
+
+/// The velocity (m/s) at which a gap may close: so that it is shut at the end of the drift, and no more.
+/// Where no drift follows (outputs), 0 for a gap that is shut, no bound for another.
+double approach_limit(const State& state, double gap);
+
+/// A free end, with what an impulse J on it does. The end is a functional ℓ of particle data: the marker, or
+/// the line through the two outer particles, drawn on over half the length of the outer one. It is at ℓ(X +
+/// u), and the drift moves it with ℓ(N) v. J changes particle velocities by J N M⁻¹ ℓ(N), M the mass by which
+/// the scheme divides forces, the grid velocity by the projection of that, and so the velocity of the end by
+/// J w. A condition on the velocity of the end is one scalar equation for J, and the drift meets it.
+///
+/// J goes the way of all forces, through the particles to the grid, so that with it the step stays symmetric:
+/// it is an orthogonal projection that can only lower the highest frequency, and the critical step with it
+/// holds.
+class BodyEnd {
+ public:
+  BodyEnd(const PlanBuilder& builder, Side side);
+
+  /// Where it is (m), with infinitesimal kinematics too, where displacements are all that moves.
+  [[nodiscard]] double position(const State& state) const;
+
+  static constexpr const char* arrays = "per particle and per function: response to an impulse on the end";
+
+  /// Finds w and the velocities of the end; in Phase::constraint, before the others.
+  void find(const State& state);
+
+  [[nodiscard]] double compliance() const { return compliance_; }  ///< w, m²/kg
+  /// Of the end (m/s): after the kick but without an impulse on it, and before the kick.
+  [[nodiscard]] double velocity() const { return velocity_; }
+  [[nodiscard]] double velocity_before() const { return velocity_before_; }
+
+  /// Applies an impulse (kg/(m s), in +X) to the velocities of particles and grid, and books it.
+  void push(State& state, double impulse) const;
+  /// What an impulse after `find` does to the kinetic energy (J/m²): J times the mean of the velocities
+  /// before and after kick and impulse.
+  [[nodiscard]] double work(double impulse) const {
+    return impulse * 0.5 * (velocity_before_ + velocity_ + compliance_ * impulse);
+  }
+
+ private:
+  struct Part {
+    std::size_t particle = 0;
+    double weight = 0.0;
+  };
+  /// Calls `visit(function, value)` for ℓ(N).
+  template <class Visit>
+  void for_functions(const State& state, Visit visit) const;
+
+  decltype(PlanBuilder::divide_by_mass) divide_by_mass_;
+  decltype(PlanBuilder::project) project_;
+  std::array<Part, 2> parts_{};            ///< ℓ
+  std::vector<double> grid_response_;      ///< of the grid velocity to a unit impulse
+  std::vector<double> particle_response_;  ///< of the particle velocities
+  double reaction_ = 0.0;                  ///< at fixed ends, of a unit impulse
+  double compliance_ = 0.0;
+  double velocity_ = 0.0;
+  double velocity_before_ = 0.0;
+};
+
+}  // namespace hompm::detail

@@ -1,0 +1,40 @@
+#include <hompm/effects/amplitude_parameters.hpp>
+#include <hompm/effects/body_end.hpp>
+#include <hompm/effects/effects.hpp>
+#include <hompm/scene/amplitude.hpp>
+
+namespace hompm::detail {
+namespace {
+
+/// The end moves with v(t) a(t): J = (v a − v_e)/w, with a in the middle of the drift.
+void join(const EffectSpec& spec, PlanBuilder& builder) {
+  const Side side = side_of(spec);
+  const double velocity = spec.number("velocity");
+  const Amplitude amplitude = amplitude_of(spec);
+  if (builder.wants_end_stress) join_own_stress(side, builder);
+  builder.add(
+      Phase::constraint, "piston",
+      [velocity, amplitude, end = BodyEnd(builder, side)](State& state) mutable {
+        end.find(state);
+        const double wanted = velocity * amplitude(state.position_time + 0.5 * state.drift);
+        const double impulse = (wanted - end.velocity()) / end.compliance();
+        end.push(state, impulse);
+        state.balance.external_work += end.work(impulse);
+      },
+      BodyEnd::arrays);
+}
+
+}  // namespace
+
+EffectType piston() {
+  return {.name = "piston",
+          .meaning = "prescribed velocity of a free end: from t = 0, ramped up, oscillating, or a pulse",
+          .parameters = with_amplitude(
+              {{.name = "velocity", .unit = "m/s", .meaning = "of the end, in the direction of X"},
+               which_end("left")}),
+          .join = join,
+          .conflict = conflict_of_held_end,
+          .holds_end = true};
+}
+
+}  // namespace hompm::detail

@@ -1,0 +1,62 @@
+#include <limits>
+
+#include <hompm/effects/body_end.hpp>
+#include <hompm/effects/effects.hpp>
+#include <hompm/error.hpp>
+#include <hompm/number.hpp>
+#include <hompm/plan/invalid.hpp>
+
+namespace hompm::detail {
+namespace {
+
+void check_position(const EffectSpec& spec, const State& state, Side side, double position) {
+  const double end = side == Side::right ? state.right_boundary : state.left_boundary;
+  if (outward(side) * (position - end) < 0.0)
+    throw SceneError(spec.origin, "the wall at " + to_text(position) +
+                                      " m is inside the body, whose end is at " + to_text(end) + " m");
+  if (state.moves && state.grid.locate(position).cell < 0)
+    throw SceneError(spec.origin, "the wall at " + to_text(position) + " m is off the grid, " +
+                                      grid_text(state) + "; " + raise_grid);
+}
+
+/// The end may close the gap g to the wall within the drift, and no more: outward v_e ≤ g/δ, by an impulse
+/// that pushes. A condition on velocities in the manner of J. J. Moreau (1988) that keeps the positions apart
+/// too: there is no penetration, and no stiffness to choose.
+void join(const EffectSpec& spec, PlanBuilder& builder) {
+  const Side side = side_of(spec);
+  const double n = outward(side);
+  const double position = spec.number("position");
+  check_position(spec, builder.state, side, position);
+  BodyEnd at(builder, side);
+  const auto gap = [n, position, at](const State& state) { return n * (position - at.position(state)); };
+  if (builder.wants_end_stress)
+    builder.add(Phase::end_stress, "wall: a marker in contact carries its own stress",
+                [side, gap](State& state) { carry_contact_stress(state, side, gap(state)); });
+  builder.add(
+      Phase::constraint, "wall",
+      [n, position, end = at](State& state) mutable {
+        const double most = approach_limit(state, n * (position - end.position(state)));
+        if (most == std::numeric_limits<double>::infinity()) return;
+        end.find(state);
+        const double excess = n * end.velocity() - most;
+        if (!(excess > 0.0)) return;
+        const double impulse = -n * excess / end.compliance();
+        end.push(state, impulse);
+        state.balance.dissipated -= end.work(impulse);
+      },
+      BodyEnd::arrays);
+}
+
+}  // namespace
+
+EffectType wall() {
+  return {.name = "wall",
+          .meaning = "rigid wall that a free end meets and leaves again",
+          .parameters = {{.name = "position", .unit = "m", .meaning = "of the wall, beyond the end"},
+                         which_end("right")},
+          .join = join,
+          .conflict = conflict_of_held_end,
+          .holds_end = true};
+}
+
+}  // namespace hompm::detail
