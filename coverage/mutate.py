@@ -38,6 +38,7 @@ LEAST_KILLED = 90.0
 FEW = 12  # a header that more translation units include takes too long to compile for one mutant
 LONG = 10.0  # seconds: tests that take longer are left out, as those of long runs are that check no more than shorter ones
 DONE = ("killed", "survived")
+DEFAULT_OF_MEMBER = re.compile(r"  [\w:<>, ]+ \w+ = [^;()]*[;,]")
 PROGRAMS = ["test_unit", "test_cli"]
 NOT_RUN = ("counted steps", "instructions repeat")  # under callgrind
 SWITCH = """// Which mutant is in force, and which were asked about: HOMPM_MUTANT, and a file HOMPM_REACHED with a byte for each.
@@ -180,10 +181,7 @@ class Mutation:
 
     def verdict(self, mutant):
         number = self.numbers[mutant]
-        tests = [test for test in self.seconds if number in self.reached[test]]
-        if mutant not in self.embedded or not tests:
-            return self.verdict_alone(mutant)
-        return self.judged(tests, HOMPM_MUTANT=str(number))
+        return self.judged([test for test in self.seconds if number in self.reached[test]], HOMPM_MUTANT=str(number))
 
     def judged(self, tests, **variables):
         for test in sorted(tests, key=lambda test: self.seconds[test]):
@@ -206,8 +204,10 @@ class Mutation:
             target.write_bytes(original)
 
     def alone(self, mutant):
+        """What is no expression, and what the compiler computes itself, as it may the default of a member."""
         number = self.numbers[mutant]
-        return mutant not in self.embedded or not any(number in reached for reached in self.reached.values())
+        return (mutant not in self.embedded or DEFAULT_OF_MEMBER.match(mutant.before)
+                or not any(number in reached for reached in self.reached.values()))
 
 
 def stored(path, empty):
@@ -239,9 +239,8 @@ def table(results):
     others = collections.Counter(entry["verdict"] for entry in results.values() if entry["verdict"] not in DONE)
     commits = ", ".join(sorted({entry["commit"] for entry in results.values()}))
     text = ["# Mutation run", "", "Written by `coverage/mutate.py`; [what it means](README.md#mutants).", "",
-            f"{killed} of {count} mutants are killed: {share:.1f} %. The sample has {len(results)}; "
-            f"{others['not compiled']} do not compile, {others['not run']} are in headers that too much includes. "
-            f"Run at {commits}.", "",
+            f"{killed} of {count} mutants are killed: {share:.1f} %. {others['not compiled']} more do not compile, and "
+            f"{others['not run']} need a build of their own of too much. Run at {commits}.", "",
             *share_table("room", results, "room"), "", *share_table("change", results, "kind"), "", "## Survivors", "",
             "| mutant | where | change | why no test notices |", "| --- | --- | --- | --- |"]
     for identity, entry in sorted(results.items(), key=lambda item: (item[1]["path"], item[0])):
@@ -264,7 +263,9 @@ def complaints(results):
 
 
 def run_mutants(sample, results, seconds, jobs):
-    if not sample:
+    """Those of the sample that have no result yet; all are in the build, so that it serves until the code changes."""
+    missing = [mutant for mutant in sample if mutant.identity not in results]
+    if not missing:
         return
     mutation = Mutation(sample)
     end = time.monotonic() + seconds
@@ -277,14 +278,14 @@ def run_mutants(sample, results, seconds, jobs):
         print(f"{verdict:12} {mutant.identity} {mutant.path}:{mutant.line}: {mutant.before.strip()}  ->  {mutant.after.strip()}",
               flush=True)
 
-    switched = [mutant for mutant in sample if not mutation.alone(mutant)]
+    switched = [mutant for mutant in missing if not mutation.alone(mutant)]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for mutant, verdict in zip(switched, pool.map(lambda m: mutation.verdict(m) if time.monotonic() < end else None, switched)):
             if verdict:
                 keep(mutant, verdict)
-    for mutant in sample:
+    for mutant in missing:
         if mutation.alone(mutant) and time.monotonic() < end:
-            keep(mutant, mutation.verdict(mutant))
+            keep(mutant, mutation.verdict_alone(mutant))
     if time.monotonic() > end:
         print("mutate: the time is over; run again to go on")
 
@@ -317,7 +318,7 @@ def main():
         if given.list:
             print("\n".join(f"{m.identity} {m.kind:10} {m.path}:{m.line}: {m.after.strip()}" for m in sample))
             return 0
-        run_mutants([mutant for mutant in sample if mutant.identity not in results], results, given.seconds, given.jobs)
+        run_mutants(sample, results, given.seconds, given.jobs)
         TABLE.write_text(table(results), encoding="utf-8")
     elif not TABLE.exists() or TABLE.read_text(encoding="utf-8") != table(results):
         print(f"mutate: {TABLE.name} is not what {RESULTS.name} and {REASONS.name} say; run coverage/mutate.py --count 0")

@@ -7,6 +7,7 @@
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/smooth_step.hpp>
+#include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/run.hpp>
 
 #include "support/catch.hpp"
@@ -157,4 +158,41 @@ TEST_CASE("choices that do not go together are refused, at the one the scene mad
   CHECK_THAT(with({{"scheme.name", "tielen2017"}, {"scheme.velocity_projection", "lumped"}},
                   "scheme.free_end", "extension"),
              contains("ties functions of a consistent mass"));
+}
+
+TEST_CASE("kicks and drifts of every integrator make one step, and read the same backwards") {
+  using enum hompm::TimeIntegrator;
+  for (const auto integrator : {euler_cromer, leapfrog, blanes_moan}) {
+    const auto& [kicks, drifts] = hompm::splitting(integrator);
+    for (const auto& parts : {kicks, drifts}) {
+      CHECK(std::abs(std::accumulate(parts.begin(), parts.end(), -1.0)) < 1e-15);  // rounding of a few sums
+      CHECK(std::equal(parts.begin(), parts.end(), parts.rbegin()));
+    }
+  }
+}
+
+TEST_CASE("cells without particles share the mass of the one before them") {
+  auto scene = hompm::test::free_body({{"scheme.name", "high-order"}, {"scheme.conserve", "cell-mass"}});
+  hompm::Simulation simulation(scene, 1e-3);
+  auto& state = simulation.state();
+  // A twentieth of a cell to the right: the free end is then in a cell of its own.
+  for (double& v : state.particles.velocity) v = 0.05 / 16.0 / 1e-3;
+  simulation.step();
+  simulation.plan().run(hompm::Phase::geometry, state);
+  const auto& mass = state.fields.mass;
+  CHECK(std::abs(std::accumulate(mass.begin(), mass.end(), -state.total_mass)) < 1e-14);  // of 1 kg/m²
+}
+
+TEST_CASE("any relaxation rate above zero relaxes") {
+  const auto relaxes = [](const std::string& rate) {
+    const auto scene =
+        built_in("bar", "large", {{"scheme.name", "high-order"}, {"scheme.relaxation_rate", rate}});
+    const hompm::Simulation simulation(scene, 1e-4);
+    for (const auto& phase : simulation.plan().phases)
+      for (const auto& stage : phase)
+        if (stage.name.find("relax") != std::string::npos) return true;
+    return false;
+  };
+  CHECK_FALSE(relaxes("0"));
+  CHECK(relaxes("1e-3"));
 }

@@ -66,3 +66,31 @@ TEST_CASE("a damping adds its force at its own grid function, and takes that for
   simulation.plan().run(Phase::work, state);
   CHECK(state.balance.dissipated == dissipated - 4.0 * power);
 }
+
+TEST_CASE("viscosity adds to the stress of each particle what its own strain rate makes") {
+  Simulation simulation = column_with({"viscosity", {{"viscosity", 2.0}}, {}});
+  auto& state = simulation.state();
+  const auto before = state.particles.stress;
+  simulation.plan().run(Phase::end_stress, state);
+  const std::size_t stencil = state.basis.gradients.size() / state.particles.size();
+  for (std::size_t p = 0; p < state.particles.size(); ++p) {
+    double rate = 0.0;
+    for (std::size_t k = 0; k < stencil; ++k)
+      rate += state.basis.gradients[p * stencil + k] *
+              state.fields.velocity[static_cast<std::size_t>(state.basis.first[p]) + k];
+    CHECK(std::abs(state.particles.stress[p] - before[p] - 2.0 * rate) <
+          1e-14);  // rounding of numbers below 1
+  }
+}
+
+TEST_CASE("the manufactured solution starts with the velocity of its sine") {
+  hompm::Scene scene = built_in("bar", "small", {{"scheme.cells", "4"}});
+  scene.initial_velocity.reset();
+  scene.effects = {{"manufactured", {{"amplitude", 0.5}}, {}}};
+  const auto start = Simulation(scene, 1e-4).snapshot(0.0);
+  const double pi = std::acos(-1.0);
+  for (std::size_t p = 0; p < start.size(); ++p) {
+    const double exact = 0.5 * pi * 10.0 / 25.0 * std::sin(pi * start.reference_position[p] / 25.0);
+    CHECK(std::abs(start.velocity[p] - exact) < 1e-14);  // rounding of numbers below 1
+  }
+}

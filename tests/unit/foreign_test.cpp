@@ -420,3 +420,20 @@ TEST_CASE("a body that comes to rest is compared when it has", "[foreign]") {
   CHECK(contains(result.notes.front(), "which is not at rest"));
   CHECK_FALSE(figures(result, "stress", result.fields[0].time).golden_error);
 }
+
+TEST_CASE("a particle a thousandth of a spacing away is another particle", "[foreign]") {
+  Theirs theirs;
+  theirs.set(3, 2, "0.2442871");  // 1.5e-3 spacings of 25/256 m from 0.244140625
+  const auto result = theirs.compare();
+  CHECK(result.verdict == Verdict::different);
+  CHECK(contains(joined(result.messages, "\n"), "B has no particle at X = 0.2442871"));
+}
+
+TEST_CASE("a column that is meant is named only where it is not there", "[foreign]") {
+  Theirs theirs;
+  theirs.change_lines([](Lines& lines) {
+    for (auto& line : lines) line += &line == &lines.front() ? ",Velocity,qqqqqqqq" : ",0,0";
+  });
+  CHECK(theirs.compare().notes.front() ==
+        theirs.csv.string() + ": columns not looked at: `Velocity`, `qqqqqqqq`");
+}

@@ -31,3 +31,15 @@ TEST_CASE("stretches need reference positions in ascending order") {
   CHECK(message_of<hompm::Error>([&] { hompm::detail::StretchFromPositions<Splines>{particles}; }) ==
         "reference positions are not in ascending order");
 }
+
+TEST_CASE("a particle is told by its number, a marker by none") {
+  hompm::State state = hompm::initial_state(free_body({{"scheme.name", "high-order"}}));
+  const std::size_t last = state.particles.size() - 1;
+  const auto message = [&](std::size_t index) {
+    return message_of<hompm::InvalidRun>([&] { hompm::detail::throw_left_grid(state, index); });
+  };
+  CHECK_THAT(message(1), hompm::test::contains("particle 0"));
+  CHECK_THAT(message(last - 1), hompm::test::contains("particle 63"));
+  for (const std::size_t marker : {std::size_t{0}, last})
+    CHECK(message(marker).find("particle") == std::string::npos);
+}

@@ -11,6 +11,7 @@
 #include <hompm/reference/reference.hpp>
 
 #include "support/catch.hpp"
+#include "support/scenes.hpp"
 
 namespace {
 
@@ -301,4 +302,12 @@ TEST_CASE("the method of lines refuses to go back, and to go on where the materi
   CHECK_THROWS_AS(found.at(0.9, X), Error);
   CHECK_THROWS_AS(found.at(20.0, X), Error);
   CHECK_THROWS_AS(found.at(20.0, X), Error);
+}
+
+TEST_CASE("an estimate of the error at one point is that of this point", "[reference]") {
+  const auto reference = hompm::make_reference(hompm::test::built_in("bar", "large", {{"end_time", "0.5"}}));
+  REQUIRE(reference);
+  const std::vector<double> X{6.0};
+  reference->at(0.5, X);
+  CHECK(reference->estimated_error().displacement > 0.0);
 }

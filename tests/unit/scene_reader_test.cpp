@@ -8,6 +8,7 @@
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 #include <hompm/scheme/scheme.hpp>
 
 #include "support/catch.hpp"
@@ -516,4 +517,13 @@ TEST_CASE("an effect outside the catalogue is written without units") {
   effect.parameters["speed"] = 3.0;
   scene.effects.push_back(effect);
   CHECK_THAT(scene_text(scene), hompm::test::contains("[[effect]]\ntype = \"wind\"\nspeed = 3.0\n"));
+}
+
+TEST_CASE("A bound is told as it is, whole or not") {
+  const auto demand = [](double minimum, double maximum) {
+    return hompm::detail::demand(
+        {.type = hompm::detail::ValueType::number, .minimum = minimum, .maximum = maximum});
+  };
+  CHECK(demand(0.5, 2.0) == "a number from 0.5 to 2");
+  CHECK(demand(0.0, 1e20) == "a number from 0 to 1e+20");
 }

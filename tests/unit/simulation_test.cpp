@@ -10,6 +10,7 @@
 #include <hompm/simulation/simulation.hpp>
 
 #include "support/catch.hpp"
+#include "support/recorded_run.hpp"
 #include "support/scenes.hpp"
 
 using hompm::Phase;
@@ -263,4 +264,39 @@ TEST_CASE("schemes that reconstruct refuse a single particle") {
   CHECK_NOTHROW(Simulation(
       free_body({{"scheme.cells", "1"}, {"scheme.particles_per_cell", "1"}, {"scheme.name", "bspline"}}),
       1e-3));
+}
+
+TEST_CASE("the kinetic energy at the start is that of the particles") {
+  const Simulation simulation(built_in("bar", "large"), 1e-4);
+  const auto start = simulation.snapshot(0.0);
+  double kinetic = 0.0;
+  for (const double v : start.velocity) kinetic += 0.5 * (25.0 / 256.0) * v * v;
+  CHECK(std::abs(simulation.history(0.0).kinetic / kinetic - 1.0) < 1e-14);  // rounding of 256 terms
+}
+
+TEST_CASE("a body that never moves is at rest after the time of a wave there and back") {
+  const auto scene = free_body({{"rest.speed", "1e-6"}, {"end_time", "3"}});
+  const auto result = run(scene, hompm::time_stepping(scene));
+  CHECK(result.at_rest);
+  CHECK(result.steps == 2000);  // of 1e-3 s; 1 m there and back at 1 m/s
+}
+
+TEST_CASE("the largest values of a run are those of its rows") {
+  auto scene = hompm::test::busy_scene("high-order", 3, "leapfrog", "finite");
+  scene.output.snapshots = 1;
+  const auto run = hompm::test::record_run(scene, 0);
+  hompm::RunExtremes most;
+  const auto raise = [](double& largest, double value) { largest = std::max(largest, std::abs(value)); };
+  for (const hompm::HistoryRow& row : run.reported.history) {
+    raise(most.largest_residual, row.residual);
+    raise(most.largest_momentum_residual, row.momentum_residual);
+    raise(most.largest_internal_force_sum, row.internal_force_sum);
+    raise(most.largest_energy, row.kinetic + row.stored + std::abs(row.gravity));
+    raise(most.largest_momentum, std::abs(row.momentum) + std::abs(row.impulse));
+  }
+  CHECK(run.result.largest_residual == most.largest_residual);
+  CHECK(run.result.largest_momentum_residual == most.largest_momentum_residual);
+  CHECK(run.result.largest_internal_force_sum == most.largest_internal_force_sum);
+  CHECK(run.result.largest_energy == most.largest_energy);
+  CHECK(run.result.largest_momentum == most.largest_momentum);
 }
