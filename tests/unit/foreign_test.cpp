@@ -432,8 +432,8 @@ TEST_CASE("a particle a thousandth of a spacing away is another particle", "[for
 TEST_CASE("a column that is meant is named only where it is not there", "[foreign]") {
   Theirs theirs;
   theirs.change_lines([](Lines& lines) {
-    for (auto& line : lines) line += &line == &lines.front() ? ",Velocity,qqqqqqqq" : ",0,0";
+    for (auto& line : lines) line += &line == &lines.front() ? ",Velocity,qqqqqqqq,\"" : ",0,0,0";
   });
   CHECK(theirs.compare().notes.front() ==
-        theirs.csv.string() + ": columns not looked at: `Velocity`, `qqqqqqqq`");
+        theirs.csv.string() + ": columns not looked at: `Velocity`, `qqqqqqqq`, `\"`");
 }

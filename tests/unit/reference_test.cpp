@@ -133,6 +133,21 @@ TEST_CASE("mass-proportional damping halves its rate in a mode", "[reference]") 
   CHECK(distance(fields.displacement, exact) < 1e-10);
 }
 
+TEST_CASE("viscosity damps a mode with half of the viscosity times its wave number squared", "[reference]") {
+  Scene scene = bar("linear", 0.3);
+  scene.kinematics = hompm::Kinematics::infinitesimal;
+  const double eta = 20.0, k = pi / 25.0, omega0 = 10.0 * k, time = 3.1;
+  scene.effects.push_back(effect("viscosity", {{"viscosity", eta}}));
+  const std::vector<double> X = points(25.0, 9);
+  const ReferenceFields fields = reference(scene).at(time, X);
+  const double decay = 0.5 * eta * k * k;  // for a density of 1
+  const double omega = std::sqrt(omega0 * omega0 - decay * decay);
+  std::vector<double> exact;
+  for (const double x : X)
+    exact.push_back(0.3 / omega * std::exp(-decay * time) * std::sin(omega * time) * std::sin(k * x));
+  CHECK(distance(fields.displacement, exact) < 1e-10);
+}
+
 TEST_CASE("a step of traction sends d'Alembert's wave", "[reference]") {
   // Until the wave is back the loaded end moves at p/(ρ0 c); at the kink the method of lines is of low order.
   const double p = 200.0, time = 0.13;

@@ -257,6 +257,13 @@ TEST_CASE("a record that is none is refused", "[study]") {
   CHECK(contains(message_of<Error>([] { study::read_times("[]"); }), "not a record"));
 }
 
+TEST_CASE("a word is made of letters, digits and signs", "[study]") {
+  for (const std::string word : {"a", "z", "A", "Z", "a0", "a9", "a-b_c.d+e"})
+    CHECK(study::canonical_value(word, "here") == word);
+  for (const std::string other : {"", "@", "[", "`", "{", "a b", "/", ":"})
+    CHECK_THROWS_AS(study::canonical_value(other, "here"), SceneError);
+}
+
 TEST_CASE("a word of a status is read back", "[study]") {
   using study::Status;
   for (const Status status : {Status::ok, Status::refused, Status::invalid, Status::unjudged}) {
