@@ -112,7 +112,7 @@ hompm::Checkpoint starting_point(const hompm::Scene& scene, const po::variables_
 }
 
 /// The trace that --trace asks for; nothing without.
-std::unique_ptr<hompm::Trace> open_trace(const po::variables_map& given) {
+std::unique_ptr<hompm::Trace> open_trace(const hompm::Scene& scene, const po::variables_map& given) {
   hompm::TraceOptions options;
   if (given.count("trace-values")) {
     if (!given.count("trace")) throw UsageError("--trace-values goes with --trace");
@@ -120,6 +120,7 @@ std::unique_ptr<hompm::Trace> open_trace(const po::variables_map& given) {
         hompm::cli::parse_steps(given["trace-values"].as<std::string>(), "--trace-values", 0);
   }
   if (!given.count("trace")) return nullptr;
+  if (!scene.bodies.empty()) throw UsageError("--trace follows one body; the scene has several");
   return std::make_unique<hompm::Trace>(given["trace"].as<std::string>(), options);
 }
 
@@ -129,7 +130,8 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
   const bool quiet = given.count("quiet") > 0;
   const bool resumed = from.has_value();
   if (given.count("critical-step")) {
-    std::cout << hompm::cli::critical_step_text(scene);
+    for (const hompm::Scene* body : hompm::bodies_of(scene))
+      std::cout << hompm::cli::critical_step_text(*body);
     return hompm::cli::success;
   }
   const hompm::TimeStepping stepping = hompm::time_stepping(scene);
@@ -138,8 +140,8 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
     std::cout << hompm::cli::plan_text(scene, stepping);
     return hompm::cli::success;
   }
-  hompm::RunFolder folder(output_folder(given, scene), begin.vtk);
-  const auto trace = open_trace(given);
+  hompm::RunFolder folder(output_folder(given, scene), begin.vtk, !scene.bodies.empty());
+  const auto trace = open_trace(scene, given);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return begin.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

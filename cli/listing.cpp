@@ -61,11 +61,12 @@ std::string catalogue_text() {
   return text;
 }
 
-std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& stepping) {
-  using hompm::Phase;
-  const hompm::Simulation simulation(scene, stepping.time_step);
-  const bool moves = scene.kinematics == hompm::Kinematics::finite;
-  const std::array<std::pair<Phase, std::string>, 10> phases{{
+namespace {
+
+using Phases = std::array<std::pair<Phase, std::string>, 10>;
+
+Phases phases_of(bool moves) {
+  return {{
       {Phase::geometry, moves ? "geometry" : "geometry (once: nothing moves)"},
       {Phase::end_stress, "stress at the ends"},
       {Phase::internal_force, "internal force"},
@@ -77,19 +78,45 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
       {Phase::work, "work"},
       {Phase::motion, "motion"},
   }};
-  std::string text = std::to_string(stepping.steps) + " steps of " + hompm::to_text(stepping.time_step) +
-                     " s; critical step " + hompm::to_text(stepping.critical_time_step) + " s\n";
+}
+
+std::string stages_text(const hompm::Plan& plan, bool moves) {
+  std::string text;
   int number = 0;
-  for (const auto& [phase, title] : phases) {
-    if (simulation.plan()[phase].empty()) continue;
+  for (const auto& [phase, title] : phases_of(moves)) {
+    if (plan[phase].empty()) continue;
     text += title + "\n";
-    for (const auto& stage : simulation.plan()[phase]) {
+    for (const auto& stage : plan[phase]) {
       text += "  " + padded(std::to_string(++number) + ".", 4) + padded(stage.name, 50) + "for " +
               stage.called_by + "\n";
       if (!stage.arrays.empty()) text += padded("", 8) + "owns, " + stage.arrays + "\n";
     }
   }
-  return text + "effects absent: " + effects_left_out(scene) + "\n";
+  return text;
+}
+
+std::string couplings_text(const hompm::Simulation& simulation) {
+  std::string text;
+  for (const auto& [phase, title] : phases_of(true))
+    for (const auto& coupling : simulation.couplings())
+      if (coupling.phase == phase)
+        text += "  " + padded(coupling.name, 54) + "for " + coupling.called_by + "\n" + padded("", 8) +
+                "of bodies " + std::to_string(coupling.left) + " and " + std::to_string(coupling.left + 1) +
+                ", at the end of the phase " + title + "\n";
+  return text.empty() ? "" : "between bodies\n" + text;
+}
+
+}  // namespace
+
+std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& stepping) {
+  const hompm::Simulation simulation(scene, stepping.time_step);
+  std::string text = std::to_string(stepping.steps) + " steps of " + hompm::to_text(stepping.time_step) +
+                     " s; critical step " + hompm::to_text(stepping.critical_time_step) + " s\n";
+  for (std::size_t body = 0; body < simulation.bodies(); ++body) {
+    if (simulation.bodies() > 1) text += "body " + std::to_string(body) + "\n";
+    text += stages_text(simulation.plan(body), simulation.state(body).moves);
+  }
+  return text + couplings_text(simulation) + "effects absent: " + effects_left_out(scene) + "\n";
 }
 
 std::string critical_step_text(const hompm::Scene& scene) {

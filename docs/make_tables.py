@@ -297,7 +297,7 @@ ROOMS = {
     "scene": "what is simulated, as plain data",
     "materials": "stress, tangent, modulus, stored energy and inverse of each law",
     "plan": "the stages of a step and the state they work on",
-    "effects": "gravity, traction, dampings: each joins a plan",
+    "effects": "loads, dampings, viscosities, what holds ends and couples bodies: each joins a plan",
     "scheme": "the table of schemes, and how its choices join a plan",
     "scene_file": "scene files and the built-in cases: reading, checking, writing",
     "simulation": "steps, critical step, balances, runs, records",

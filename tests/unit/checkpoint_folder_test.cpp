@@ -27,10 +27,10 @@ TEST_CASE("a checkpoint that cannot be written does not stop the run, and the on
   RunFolder folder(scratch.path(), false);
   CheckpointWriter writer(folder, checkpoint, [&](const std::string& text) { warnings.push_back(text); });
   const auto write = [&](std::int64_t step) {
-    checkpoint.point.state.step = step;
+    checkpoint.point.states.front().step = step;
     writer.write(checkpoint.point, 0.0);
   };
-  const auto step_on_disk = [&] { return hompm::read_checkpoint(scratch.path()).point.state.step; };
+  const auto step_on_disk = [&] { return hompm::read_checkpoint(scratch.path()).point.states.front().step; };
   {
     const FileSizeLimit full(1000);
     write(1);

@@ -35,7 +35,7 @@ void check_resuming(const hompm::Scene& scene, std::int64_t every) {
   for (const Checkpoint& point : whole.points) {
     const Checkpoint read = through_bytes(point);
     const RecordedRun rest = record_run(read.scene, every, &read);
-    INFO("from step " << point.point.state.step);
+    INFO("from step " << point.point.states.front().step);
     CHECK(same_bits(numbers_of(rest), numbers_of(whole)));
     // what it would go on from later is the same, too
     if (!rest.points.empty())

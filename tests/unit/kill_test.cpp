@@ -120,7 +120,7 @@ TEST_CASE("a run killed a hundred times loses at most one interval each time, an
     }
     ++kills;
     const bool has_checkpoint = fs::exists(folder / hompm::checkpoint_name);
-    const std::int64_t now = has_checkpoint ? hompm::read_checkpoint(folder).point.state.step : 0;
+    const std::int64_t now = has_checkpoint ? hompm::read_checkpoint(folder).point.states.front().step : 0;
     // the one before step `done`, and never one older than before
     if (!fs::exists(folder / "run.json")) REQUIRE(now >= std::max(kept, (*done - 1) / every * every));
     kept = now;

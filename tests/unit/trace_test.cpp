@@ -193,7 +193,7 @@ TEST_CASE("the trace of a resumed run continues that of the whole one") {
   CHECK(found.first_step == 50);
   CHECK(found.last_step == 60);
   auto other = points[1].point;
-  other.state.particles.stress[1] = 1.0;
+  other.states.front().particles.stress[1] = 1.0;
   write_trace(
       scene, scratch / "rest", [](Plan&) {}, {}, &other);
   for (const bool swapped : {false, true}) {

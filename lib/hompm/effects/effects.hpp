@@ -18,5 +18,7 @@ EffectType plasticity();
 EffectType piston();
 EffectType wall();
 EffectType absorbing();
+EffectType contact();
+EffectType interface();
 
 }  // namespace hompm::detail

@@ -16,6 +16,8 @@ const EffectCatalogue& effect_catalogue() {
       detail::piston(),          //
       detail::wall(),            //
       detail::absorbing(),       //
+      detail::contact(),         //
+      detail::interface(),       //
   };
   return catalogue;
 }
@@ -24,6 +26,15 @@ const EffectType& find_effect(const EffectSpec& spec) {
   for (const EffectType& type : effect_catalogue())
     if (type.name == spec.type) return type;
   throw SceneError(spec.origin, "there is no effect " + spec.type);
+}
+
+bool EffectType::holds(const EffectSpec& spec, const std::string& end, std::int64_t body,
+                       std::int64_t count) const {
+  if (!holds_end) return false;
+  if (!couples())
+    return spec.body.value_or(body) == body && spec.parameters.contains("end") && spec.text("end") == end;
+  const std::int64_t left = end == "right" ? body : body - 1;  // of the pair that meets at this end
+  return left >= 0 && left + 1 < count && spec.body.value_or(left) == left;
 }
 
 void prepare_effects(const Scene& scene, State& state) {

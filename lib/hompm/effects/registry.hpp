@@ -11,6 +11,7 @@
 
 namespace hompm {
 
+struct PairBuilder;
 struct PlanBuilder;
 struct State;
 struct EffectType;
@@ -46,6 +47,15 @@ struct EffectType {
   /// Decides how an end moves (its parameter `end`, which must be free): one such effect at each end, joined
   /// after all others.
   bool holds_end = false;
+  /// In place of `join`: couples the right end of a body to the left end of the next; both are held, and
+  /// free.
+  void (*join_pair)(const EffectSpec& spec, const PairBuilder& pair) = nullptr;
+
+  [[nodiscard]] bool couples() const { return join_pair != nullptr; }
+  /// Whether an effect of this type acts on the left or right end of a body as what holds it, in a scene of
+  /// `count` bodies.
+  [[nodiscard]] bool holds(const EffectSpec& spec, const std::string& end, std::int64_t body,
+                           std::int64_t count) const;
 };
 
 /// All effects, in the order in which `--list` shows them.

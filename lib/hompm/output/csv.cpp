@@ -3,8 +3,8 @@
 
 namespace hompm::detail {
 
-void write_header(TextFile& file, std::span<const ParticleColumn> columns) {
-  file << "time,particle";
+void write_header(TextFile& file, std::span<const ParticleColumn> columns, bool several_bodies) {
+  file << "time,particle" << (several_bodies ? ",body" : "");
   for (const auto& column : columns) file << "," << column.name;
   file << "\n";
 }
@@ -13,6 +13,7 @@ void write_rows(TextFile& file, std::span<const ParticleColumn> columns, const S
   const std::string time = to_text(snapshot.time);
   for (std::size_t particle = 0; particle < snapshot.size(); ++particle) {
     file << time << "," << particle;
+    if (!snapshot.body.empty()) file << "," << static_cast<std::size_t>(snapshot.body[particle]);
     for (const auto& column : columns) file << "," << (snapshot.*column.values)[particle];
     file << "\n";
   }

@@ -8,10 +8,10 @@
 
 namespace hompm::detail {
 
-/// `time,particle` and the names of `columns`. Throws `FileError`.
-void write_header(TextFile& file, std::span<const ParticleColumn> columns);
-/// One row per particle of `snapshot`, numbered from 0. Throws `FileError`, and `Error` for a value that is
-/// not finite.
+/// `time,particle`, `body` where there are several, and the names of `columns`. Throws `FileError`.
+void write_header(TextFile& file, std::span<const ParticleColumn> columns, bool several_bodies);
+/// One row per particle of `snapshot`, numbered from 0 through all bodies. Throws `FileError`, and `Error`
+/// for a value that is not finite.
 void write_rows(TextFile& file, std::span<const ParticleColumn> columns, const Snapshot& snapshot);
 
 /// `time` and the names of the balances. Throws `FileError`.

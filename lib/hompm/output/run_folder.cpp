@@ -106,10 +106,10 @@ class RunFolder::Contents {
   }
 };
 
-RunFolder::RunFolder(fs::path folder, bool vtk)
+RunFolder::RunFolder(fs::path folder, bool vtk, bool several_bodies)
     : contents_(std::make_unique<Contents>(std::move(folder), vtk)) {
-  write_header(contents_->particles, detail::particle_columns);
-  write_header(contents_->stress, detail::stress_columns);
+  write_header(contents_->particles, detail::particle_columns, several_bodies);
+  write_header(contents_->stress, detail::stress_columns, several_bodies);
   write_history_header(contents_->history);
 }
 
@@ -159,7 +159,7 @@ void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
   contents_->whole = false;
   auto& staging = contents_->staging;
   auto rows = staging.create("invalid/last_valid.csv");
-  write_header(rows, detail::all_columns);
+  write_header(rows, detail::all_columns, !last.body.empty());
   write_rows(rows, detail::all_columns, last);
   rows.close();
   auto text = staging.create("invalid/reason.txt");

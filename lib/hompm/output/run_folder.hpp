@@ -21,8 +21,9 @@ class RunFolder {
  public:
   /// Creates `folder` (and its parents) and a staging folder inside it. Throws `FileError` naming the path
   /// and the reason when that is impossible. With `vtk`, snapshots are also written as vtk/*.vtu with
-  /// run.pvd.
-  RunFolder(std::filesystem::path folder, bool vtk);
+  /// run.pvd. With `several_bodies`, which the snapshots must then name, the tables of particles have a
+  /// column `body`.
+  RunFolder(std::filesystem::path folder, bool vtk, bool several_bodies = false);
   /// Removes what `publish` did not move into place, and the folders the constructor created if they are
   /// empty.
   ~RunFolder();

@@ -16,6 +16,28 @@ Json json_of(const ErrorNorms& norms) {
   return {{"relative_l2", norms.relative_l2}, {"rms", norms.rms}, {"max", norms.max}};
 }
 
+/// Of each body at the end.
+Json bodies_json(const Scene& scene, const Snapshot& final) {
+  Json bodies = Json::array();
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    std::size_t particles = 0;
+    double kinetic = 0.0;
+    double momentum = 0.0;
+    for (std::size_t i = 0; i < final.size(); ++i) {
+      if (final.body[i] != static_cast<std::int64_t>(body)) continue;
+      const double mass = final.density[i] * final.volume[i];
+      ++particles;
+      momentum += mass * final.velocity[i];
+      kinetic += 0.5 * mass * final.velocity[i] * final.velocity[i];
+    }
+    bodies.push_back({{"cells", scene.bodies[body].scheme.cells},
+                      {"particles", particles},
+                      {"momentum", momentum},
+                      {"kinetic", kinetic}});
+  }
+  return bodies;
+}
+
 /// For people: three or four digits.
 std::string brief(double value) {
   std::array<char, 32> text{};
@@ -80,6 +102,7 @@ std::string run_json(const RunReport& report) {
                       {"residual", end.momentum_residual},
                       {"largest_residual", result.largest_momentum_residual}};
   json["mass"] = {{"start", result.start.mass}, {"end", end.mass}};
+  if (!result.final.body.empty()) json["bodies"] = bodies_json(scene, result.final);
   json["largest_internal_force_sum"] = result.largest_internal_force_sum;
   json["build"] = {{"version", build.version},   {"commit", build.commit},
                    {"compiler", build.compiler}, {"flags", build.flags},
@@ -103,9 +126,14 @@ std::string run_summary(const RunReport& report) {
 
   std::string text = name + ", " + scene.scheme.name + " of degree " + std::to_string(scene.scheme.degree);
   if (!scene.title.empty()) text += ": " + scene.title;
-  text += "\n  grid      " + std::to_string(scene.scheme.cells) + " cells x " +
-          std::to_string(scene.scheme.particles_per_cell) + " = " + std::to_string(result.final.size()) +
-          " particles\n";
+  text += "\n  grid      ";
+  if (!scene.bodies.empty()) text += std::to_string(scene.bodies.size()) + " bodies, ";
+  for (const Scene* body : bodies_of(scene)) {
+    if (body != &scene && body != scene.bodies.data()) text += " + ";
+    text +=
+        std::to_string(body->scheme.cells) + " cells x " + std::to_string(body->scheme.particles_per_cell);
+  }
+  text += " = " + std::to_string(result.final.size()) + " particles\n";
   text += "  time      " + std::to_string(result.steps) + " steps of " + brief(stepping.time_step) +
           " s to t = " + to_text(result.end.time) + " s; the critical step is " +
           brief(stepping.critical_time_step) + " s";

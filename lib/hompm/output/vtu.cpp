@@ -35,6 +35,9 @@ void write_vtu(TextFile& file, const Snapshot& snapshot) {
     write_array(file, "type=\"Float64\" Name=\"" + std::string(field.name) + "\"", n,
                 [&](std::size_t i) { file << (snapshot.*field.values)[i]; });
   }
+  if (!snapshot.body.empty())
+    write_array(file, "type=\"Int64\" Name=\"body\"", n,
+                [&](std::size_t i) { file << static_cast<std::size_t>(snapshot.body[i]); });
   file << "</PointData>\n<Points>\n";
   write_array(file, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", n,
               [&](std::size_t i) { file << snapshot.position[i] << " 0 0"; });

@@ -79,4 +79,26 @@ struct PlanBuilder {
   }
 };
 
+/// What two neighbouring bodies do to each other, in a phase of the step after the stages of both.
+struct Coupling {
+  Phase phase;
+  std::string name;
+  std::string called_by;
+  std::size_t left;  ///< the body on the left; the other is the next one
+  std::function<void(State& left, State& right)> run;
+};
+
+/// What an effect between two bodies gets when it joins their plans.
+struct PairBuilder {
+  PlanBuilder& left;
+  PlanBuilder& right;
+  std::size_t index;  ///< of the body on the left
+  std::vector<Coupling>& couplings;
+  std::string called_by;
+
+  void add(Phase phase, std::string name, std::function<void(State&, State&)> run) const {
+    couplings.push_back({phase, std::move(name), called_by, index, std::move(run)});
+  }
+};
+
 }  // namespace hompm

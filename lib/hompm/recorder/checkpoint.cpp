@@ -21,7 +21,7 @@ constexpr std::size_t head_size = magic.size() + 24;  // magic, format, length, 
 template <class Any, class Visit>
 void visit_sums(Any& point, Visit visit) {
   // Every member is named, so that a new one does not compile before it has its place here.
-  auto& [state, extremes, supplied, quiet_steps] = point;
+  auto& [states, extremes, supplied, quiet_steps] = point;
   auto& [residual, momentum_residual, internal_force_sum, energy, momentum, step_fraction, wave_speed] =
       extremes;
   visit(residual);
@@ -35,6 +35,16 @@ void visit_sums(Any& point, Visit visit) {
 }
 
 std::string identity() { return build_info().version + " (" + build_info().commit + ")"; }
+
+/// Of each particle that is reported.
+std::vector<std::int64_t> body_numbers(const std::vector<State>& states) {
+  std::vector<std::int64_t> numbers;
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    const Particles& p = states[body].particles;
+    numbers.resize(numbers.size() + p.size() - 2 * p.markers, static_cast<std::int64_t>(body));
+  }
+  return numbers;
+}
 
 void write_records(ByteWriter& out, const Checkpoint& checkpoint) {
   out.word(checkpoint.history.size());
@@ -66,20 +76,22 @@ void read_records(ByteReader& in, Checkpoint& checkpoint) {
       values.resize(size);
       for (double& value : values) value = in.number();
     }
+    snapshot.body =
+        checkpoint.scene.bodies.empty() ? std::vector<std::int64_t>{} : body_numbers(checkpoint.point.states);
   }
 }
 
 void write_point(ByteWriter& out, const RunPoint& point) {
   visit_sums(point, [&](double value) { out.number(value); });
   out.word(detail::word_of(point.quiet_steps));
-  detail::write_state(out, point.state);
+  for (const State& state : point.states) detail::write_state(out, state);
 }
 
 /// Throws `Error` when a field is not what the scene makes it.
 void read_point(ByteReader& in, RunPoint& point) {
   visit_sums(point, [&](double& value) { value = in.number(); });
   detail::read_value(in, point.quiet_steps);
-  detail::read_state(in, point.state);
+  for (State& state : point.states) detail::read_state(in, state);
 }
 
 Checkpoint read_content(std::string_view bytes, const std::string& source) {
@@ -100,7 +112,7 @@ Checkpoint read_content(std::string_view bytes, const std::string& source) {
 }  // namespace
 
 Checkpoint first_checkpoint(const Scene& scene) {
-  return {.scene = scene, .history = {}, .snapshots = {}, .point = {start_state(scene)}};
+  return {.scene = scene, .history = {}, .snapshots = {}, .point = {start_states(scene)}};
 }
 
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {

@@ -9,7 +9,7 @@ CheckpointWriter::CheckpointWriter(RunFolder& folder, Checkpoint checkpoint,
     : folder_(folder),
       checkpoint_(std::move(checkpoint)),
       warn_(std::move(warn)),
-      written_(checkpoint_.point.state.step) {
+      written_(checkpoint_.point.states.front().step) {
   folder_.reserve_checkpoint();
 }
 
@@ -18,11 +18,11 @@ void CheckpointWriter::write(const RunPoint& point, double seconds) {
   checkpoint_.seconds = seconds;
   try {
     folder_.write_checkpoint(checkpoint_bytes(checkpoint_));
-    written_ = point.state.step;
+    written_ = point.states.front().step;
     failing_ = false;
   } catch (const FileError& error) {
     if (!failing_)
-      warn_("no checkpoint at step " + std::to_string(point.state.step) + ": " + error.what() +
+      warn_("no checkpoint at step " + std::to_string(point.states.front().step) + ": " + error.what() +
             "; the run goes on, " +
             (written_ > 0 ? "the last checkpoint is of step " + std::to_string(written_)
                           : std::string("there is none of it yet")));

@@ -152,6 +152,7 @@ std::optional<Reference> reference_at_origin(const Scene& scene) {
 }  // namespace
 
 std::optional<Reference> make_reference(const Scene& scene) {
+  if (!scene.bodies.empty()) return std::nullopt;
   std::optional<Reference> reference = reference_at_origin(scene);
   if (reference && scene.body.left() != 0.0)
     reference->at = [at = reference->at, left = scene.body.left()](double time, std::span<const double> X) {

@@ -53,6 +53,8 @@ struct EffectSpec {
   std::string type;
   std::map<std::string, Value> parameters;
   Origin origin;
+  /// The body it acts on, of a coupling the left one; on every one where it is not said.
+  std::optional<std::int64_t> body = {};
 
   [[nodiscard]] double number(const std::string& key) const { return std::get<double>(parameters.at(key)); }
   [[nodiscard]] const std::string& text(const std::string& key) const {
@@ -108,8 +110,16 @@ struct Scene {
   SchemeSpec scheme;
   OutputSpec output;
 
+  /// The scene of each body, where there are several: what they share is the same in all, each has the
+  /// effects that act on it alone. Body, material, ends and the like of this scene are then those of the
+  /// first.
+  std::vector<Scene> bodies;
+
   /// Where each key was said ("scheme.cells", "effect[0].acceleration"); a key left to its default is absent.
   std::map<std::string, Origin> origins;
 };
+
+/// The scenes of all bodies: `bodies`, or the scene itself.
+std::vector<const Scene*> bodies_of(const Scene& scene);
 
 }  // namespace hompm

@@ -1,6 +1,4 @@
 // What the keys of a body demand of each other.
-#include <map>
-
 #include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/reading.hpp>
 
@@ -53,13 +51,18 @@ void check_initial_velocity(Reading& reading) {
 
 /// One effect may hold an end, no more.
 void check_held_ends(Reading& reading) {
-  std::map<std::string, std::string> held;
-  for (const EffectSpec& effect : reading.scene.effects) {
-    if (!find_effect(effect).holds_end || !effect.parameters.contains("end")) continue;
-    const auto [other, first] = held.try_emplace(effect.text("end"), effect.type);
-    if (!first)
-      reading.report(effect.origin,
-                     "the " + other->first + " end is held already, by the effect " + other->second);
+  for (const std::string end : {"left", "right"}) {
+    const EffectSpec* holder = nullptr;
+    for (const EffectSpec& effect : reading.scene.effects) {
+      if (!find_effect(effect).holds(effect, end, reading.body, reading.bodies)) continue;
+      if (holder == nullptr)
+        holder = &effect;
+      else
+        reading.report(effect.origin,
+                       "the " + end + " end" +
+                           (reading.bodies > 1 ? " of body " + std::to_string(reading.body) : "") +
+                           " is held already, by the effect " + holder->type);
+    }
   }
 }
 

@@ -26,6 +26,7 @@ EffectSpec::Value parameter_value(const Content& content) {
 std::set<std::string> check_parameter_names(Reading& reading, const EffectType& type,
                                             const std::string& path) {
   std::vector<std::string> names{"type"};
+  if (reading.bodies > 1) names.emplace_back("body");
   for (const EffectParameter& parameter : type.parameters) names.push_back(parameter.name);
   std::set<std::string> meant;
   for (const auto& [key, value] : reading.said.values) {
@@ -41,6 +42,12 @@ std::set<std::string> check_parameter_names(Reading& reading, const EffectType& 
 
 void read_parameters(Reading& reading, const EffectType& type, const std::string& path, EffectSpec& effect) {
   const std::set<std::string> meant = check_parameter_names(reading, type, path);
+  if (const std::string key = join_path(path, "body"); reading.bodies > 1 && !reading.silent_on(key)) {
+    const double last = static_cast<double>(reading.bodies) - (type.couples() ? 2.0 : 1.0);
+    const auto value = reading.take(key, "`body` of the effect " + type.name,
+                                    {.type = ValueType::integer, .minimum = 0.0, .maximum = last});
+    if (value) effect.body = std::get<std::int64_t>(*value);
+  }
   for (const EffectParameter& parameter : type.parameters) {
     const ValueRule rule = rule_of(parameter);
     const std::string key = join_path(path, parameter.name);
@@ -58,15 +65,22 @@ void read_parameters(Reading& reading, const EffectType& type, const std::string
 
 // What acts on an end that does not move would do nothing.
 void check_end(Reading& reading, const EffectSpec& effect, const std::string& path) {
-  const auto parameter = effect.parameters.find("end");
-  if (parameter == effect.parameters.end()) return;
-  const std::string& end = std::get<std::string>(parameter->second);
-  const std::string key = "ends." + end;
-  const bool known = reading.has(key) || reading.silent_on(key);
-  const bool fixed = (end == "left" ? reading.scene.ends.left : reading.scene.ends.right) == End::fixed;
-  if (!known || !fixed) return;
-  reading.report(reading.said.where(path + ".end"),
-                 "the effect " + effect.type + " acts on a free end; " + key + " is fixed");
+  if (!concerns(reading, effect)) return;
+  const EffectType& type = find_effect(effect.type);
+  for (const std::string end : {"left", "right"}) {
+    const auto parameter = effect.parameters.find("end");
+    const bool named =
+        parameter != effect.parameters.end() && std::get<std::string>(parameter->second) == end;
+    if (!named && !(type.couples() && type.holds(effect, end, reading.body, reading.bodies))) continue;
+    const std::string key = "ends." + end;
+    const bool known = reading.has(key) || reading.silent_on(key);
+    const bool fixed = (end == "left" ? reading.scene.ends.left : reading.scene.ends.right) == End::fixed;
+    if (known && fixed)
+      reading.report(reading.said.where(path + ".end"),
+                     "the effect " + effect.type + " acts on a free end; " + key +
+                         (reading.bodies > 1 ? " of body " + std::to_string(reading.body) : "") +
+                         " is fixed");
+  }
 }
 
 }  // namespace
@@ -74,6 +88,10 @@ void check_end(Reading& reading, const EffectSpec& effect, const std::string& pa
 void check_effects(Reading& reading) {
   for (const EffectSpec& effect : reading.scene.effects) {
     const EffectType& type = find_effect(effect.type);
+    if (type.couples() && reading.bodies == 1)
+      reading.report(effect.origin,
+                     "the effect " + effect.type + " is between two bodies; the scene has one");
+    if (!concerns(reading, effect)) continue;
     if (type.conflict == nullptr || effect.parameters.size() < type.parameters.size()) continue;
     if (const std::string reason = type.conflict(effect, reading.scene); !reason.empty())
       reading.report(effect.origin, "the effect " + effect.type + " does not go with this scene: " + reason);

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scene_file/reading.hpp>
@@ -66,6 +67,46 @@ void sort_by_position(std::vector<Problem>& problems, const std::string& file) {
                    [&](const Problem& a, const Problem& b) { return position(a) < position(b); });
 }
 
+void read_body(Reading& reading) {
+  check_names(reading);
+  read_keys(reading);
+  read_effects(reading);
+  complete(reading);
+  check_effects(reading);
+}
+
+/// The scene of the first body with the scenes of all. What is wrong with what they share is said once.
+void read_bodies(Reading& reading, const std::vector<Said>& bodies) {
+  std::vector<Scene> scenes;
+  for (const Said& said : bodies) {
+    Reading own{.said = said,
+                .body = static_cast<std::int64_t>(scenes.size()),
+                .bodies = static_cast<std::int64_t>(bodies.size())};
+    read_body(own);
+    for (Problem& problem : own.problems) {
+      const auto same = [&](const Problem& other) {
+        return other.message == problem.message && other.origin.text() == problem.origin.text();
+      };
+      if (std::ranges::none_of(reading.problems, same)) reading.problems.push_back(std::move(problem));
+    }
+    scenes.push_back(std::move(own.scene));
+  }
+  for (const Scene& scene : scenes)
+    if (reading.problems.empty() && scene.kinematics != scenes.front().kinematics)
+      reading.report(
+          scene.origins.at("material.law"),
+          "all bodies must have the same kinematics: the law linear is infinitesimal, the others are finite");
+  reading.scene = scenes.front();
+  if (scenes.size() == 1) return;
+  if (reading.problems.empty())
+    for (std::size_t body = 0; body < scenes.size(); ++body)
+      std::erase_if(scenes[body].effects, [&](const EffectSpec& effect) {
+        return find_effect(effect).couples() ||
+               effect.body.value_or(static_cast<std::int64_t>(body)) != static_cast<std::int64_t>(body);
+      });
+  reading.scene.bodies = std::move(scenes);
+}
+
 std::string file_text(const std::string& path) {
   constexpr std::size_t largest = 4U << 20U;
   const auto fail = [&](const std::string& reason) {
@@ -89,13 +130,13 @@ std::string file_text(const std::string& path) {
 
 Scene parse_scene(const std::string& text, const std::string& source,
                   const std::vector<Override>& overrides) {
-  detail::Reading reading{detail::read_toml(text, source), {}, {}, {}};
+  detail::Reading reading{.said = detail::read_toml(text, source)};
   detail::apply_overrides(reading, overrides);
-  detail::check_names(reading);
-  detail::read_keys(reading);
-  detail::read_effects(reading);
-  detail::complete(reading);
-  detail::check_effects(reading);
+  const std::vector<detail::Said> bodies = detail::said_of_bodies(reading);
+  if (bodies.empty())
+    detail::read_body(reading);
+  else
+    detail::read_bodies(reading, bodies);
   if (!reading.problems.empty()) {
     detail::sort_by_position(reading.problems, source);
     throw SceneError(std::move(reading.problems));

@@ -1,6 +1,7 @@
 // The stations a scene passes on its way from TOML to a Scene. Each reports what it finds wrong and goes on.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,9 +14,11 @@ namespace hompm::detail {
 
 struct Reading {
   Said said;
-  Scene scene;
-  std::vector<Problem> problems;
-  std::set<std::string> meant;  ///< keys that a misspelt one stands for: not reported as missing too
+  Scene scene = {};
+  std::vector<Problem> problems = {};
+  std::int64_t body = 0;  ///< which body is read, of the `bodies` there are
+  std::int64_t bodies = 1;
+  std::set<std::string> meant = {};  ///< keys that a misspelt one stands for: not reported as missing too
 
   void report(const Origin& origin, std::string message);
   /// Whether the key was said and accepted.
@@ -29,6 +32,18 @@ struct Reading {
 
 /// Puts the overrides in the place of what the file says.
 void apply_overrides(Reading& reading, const std::vector<Override>& overrides);
+
+/// What a scene with [[body]] tables says of each body, as if it were the only one: what a table says goes
+/// before what the scene says of all. Empty where there is one body; tables that are none are reported in
+/// `reading`.
+std::vector<Said> said_of_bodies(Reading& reading);
+
+/// The name in a [[body]] table of the key at `path`: "cells" for "scheme.cells"; "" where all bodies share
+/// it.
+std::string name_in_body(const std::string& path);
+
+/// Whether the effect acts on the body that is read.
+bool concerns(const Reading& reading, const EffectSpec& effect);
 
 /// Reports keys and tables that no scene has, outside `[[effect]]`.
 void check_names(Reading& reading);

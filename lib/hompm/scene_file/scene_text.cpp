@@ -4,6 +4,7 @@
 #include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/reading.hpp>
 #include <hompm/scene_file/toml_values.hpp>
 
 namespace hompm {
@@ -31,8 +32,21 @@ std::string unit_of(const std::string& effect, const std::string& parameter) {
 
 std::string effect_text(const EffectSpec& effect) {
   std::string text = "\n[[effect]]\n" + line("type", detail::toml_string(effect.type), "");
+  if (effect.body) text += line("body", std::to_string(*effect.body), "");
   for (const auto& [name, value] : effect.parameters)
     text += line(name, value_text(value), unit_of(effect.type, name));
+  return text;
+}
+
+std::string body_text(Scene body) {
+  std::string text = "\n[[body]]\n";
+  for (const detail::KeyRow& row : detail::key_table()) {
+    const std::string name = detail::name_in_body(row.path);
+    const auto* optional = detail::find_optional_table(detail::parent_path(row.path));
+    if (name.empty() || (optional != nullptr && !optional->present(body))) continue;
+    if (const std::string value = detail::load_text(row, body); !value.empty())
+      text += line(name, value, row.rule.unit);
+  }
   return text;
 }
 
@@ -40,9 +54,11 @@ std::string effect_text(const EffectSpec& effect) {
 
 std::string scene_text(const Scene& scene) {
   Scene copy = scene;  // the key table points into a scene that it may change
+  const bool several = !scene.bodies.empty();
   std::string text;
   std::string table;
   for (const detail::KeyRow& row : detail::key_table()) {
+    if (several && !detail::name_in_body(row.path).empty()) continue;
     const std::string parent = detail::parent_path(row.path);
     const auto* optional = detail::find_optional_table(parent);
     if (optional != nullptr && !optional->present(scene)) continue;
@@ -57,6 +73,9 @@ std::string scene_text(const Scene& scene) {
     }
     text += line(detail::last_name(row.path), value, row.rule.unit);
   }
+  for (const Scene& body : scene.bodies) text += body_text(body);
+  if (several)
+    for (const EffectSpec& effect : scene.effects) text += effect_text(effect);
   return text;
 }
 

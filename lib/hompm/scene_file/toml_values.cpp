@@ -77,11 +77,13 @@ class Flattener {
     said_.values[path] = {content_of(node), parent, name, origin(key), origin(node.source())};
     if (depth == deepest) return;
     if (const toml::table* table = node.as_table()) add_table(*table, path, depth + 1);
-    if (const toml::array* array = node.as_array(); array != nullptr && path == "effect") {
+    if (const toml::array* array = node.as_array();
+        array != nullptr && (path == "effect" || path == "body")) {
+      // A body holds what else stands at the top.
+      const int below = path == "body" ? 0 : depth + 1;
       std::size_t index = 0;
-      for (const toml::node& element : *array) {
-        add(element, effect_path(index++), path, name, element.source(), depth + 1);
-      }
+      for (const toml::node& element : *array)
+        add(element, path + '[' + std::to_string(index++) + ']', path, name, element.source(), below);
     }
   }
 

@@ -11,6 +11,7 @@ Scene linear_scene(const Scene& scene) {
   linear.kinematics = Kinematics::infinitesimal;
   linear.material.law = "linear";
   linear.effects.clear();
+  linear.bodies.clear();
   linear.initial_velocity.reset();
   linear.scheme.relaxation_rate = 0.0;
   return linear;

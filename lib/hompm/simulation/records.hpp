@@ -1,11 +1,13 @@
 // What a run reports: particle fields at output times, and balances over time.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace hompm {
 
-/// All particle fields at one time. All vectors have one entry per particle, ordered by reference position.
+/// All particle fields at one time. All vectors have one entry per particle, ordered by body and reference
+/// position.
 struct Snapshot {
   double time = 0.0;                       ///< s
   std::vector<double> reference_position;  ///< X, m
@@ -16,6 +18,7 @@ struct Snapshot {
   std::vector<double> density;             ///< kg/m³
   std::vector<double> stress;              ///< Cauchy stress, tension positive, Pa
   std::vector<double> stretch;             ///< λ = ∂x/∂X
+  std::vector<std::int64_t> body;          ///< which body it belongs to, from 0; empty where there is one
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };

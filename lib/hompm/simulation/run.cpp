@@ -23,18 +23,25 @@ bool is_due(std::int64_t step, std::int64_t steps, std::int64_t count) {
 /// what the grid's has is taken back where relaxation balances it.
 class RestWatch {
  public:
-  RestWatch(const Scene& scene, double time_step, const Particles& particles, std::int64_t quiet_steps)
-      : longest_way_(scene.rest->speed * time_step),
-        before_(particles.displacement),
-        quiet_steps_(quiet_steps) {
-    const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
-    steps_needed_ = static_cast<std::int64_t>(std::ceil(2.0 * scene.body.length / wave_speed / time_step));
+  RestWatch(const Scene& scene, double time_step, const std::vector<State>& states, std::int64_t quiet_steps)
+      : longest_way_(scene.rest->speed * time_step), quiet_steps_(quiet_steps) {
+    for (const State& state : states) before_.push_back(state.particles.displacement);
+    double longest = 0.0;
+    for (const Scene* body : bodies_of(scene)) {
+      const double wave_speed = std::sqrt(body->material.youngs_modulus / body->material.density);
+      longest = std::max(longest, 2.0 * body->body.length / wave_speed);
+    }
+    steps_needed_ = static_cast<std::int64_t>(std::ceil(longest / time_step));
   }
-  bool at_rest(const Particles& particles) {
+  bool at_rest(const std::vector<State>& states) {
     bool quiet = true;
-    for (std::size_t i = 0; i < before_.size(); ++i) {
-      quiet = quiet && std::abs(particles.displacement[i] - before_[i]) <= longest_way_;
-      before_[i] = particles.displacement[i];
+    for (std::size_t body = 0; body < before_.size(); ++body) {
+      const auto& displacement = states[body].particles.displacement;
+      auto& before = before_[body];
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        quiet = quiet && std::abs(displacement[i] - before[i]) <= longest_way_;
+        before[i] = displacement[i];
+      }
     }
     quiet_steps_ = quiet ? quiet_steps_ + 1 : 0;
     return quiet_steps_ >= steps_needed_;
@@ -43,7 +50,7 @@ class RestWatch {
 
  private:
   double longest_way_;  ///< m, in one step
-  std::vector<double> before_;
+  std::vector<std::vector<double>> before_;
   std::int64_t steps_needed_;
   std::int64_t quiet_steps_;
 };
@@ -90,16 +97,16 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
               const RunPoint* from) {
   numerics::check_floating_point();
   Simulation simulation(scene, stepping.time_step);
-  const Material material = make_material(scene.material);
   RunResult result;
   result.start = result.end = simulation.history(0.0);
   if (from != nullptr) {
-    simulation.state() = from->state;
+    for (std::size_t body = 0; body < simulation.bodies(); ++body)
+      simulation.state(body) = from->states.at(body);
     static_cast<RunExtremes&>(result) = from->extremes;
   } else {
     accumulate(result, result.start);
     result.largest_step_fraction = stepping.time_step / stepping.critical_time_step;
-    result.largest_wave_speed = detail::fastest_wave(material, simulation.state());
+    result.largest_wave_speed = detail::fastest_wave(scene, simulation.states());
     if (observer.history) observer.history(result.start);
     if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
   }
@@ -107,15 +114,14 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
   EnergyGuard guard(result.start, stepping, from != nullptr ? from->supplied : 0.0);
   std::optional<RestWatch> rest;
   if (scene.rest)
-    rest.emplace(scene, stepping.time_step, simulation.state().particles,
-                 from != nullptr ? from->quiet_steps : 0);
+    rest.emplace(scene, stepping.time_step, simulation.states(), from != nullptr ? from->quiet_steps : 0);
   if (observer.start) observer.start(simulation);
 
   for (std::int64_t step = simulation.state().step + 1; step <= stepping.steps && !result.at_rest; ++step) {
     simulation.step();
     result.steps = step;
-    detail::watch_step(scene, material, simulation.state(), result);
-    result.at_rest = rest && rest->at_rest(simulation.state().particles);
+    detail::watch_step(scene, simulation.states(), result);
+    result.at_rest = rest && rest->at_rest(simulation.states());
     const bool last = step == stepping.steps || result.at_rest;
     const bool row_due = last || is_due(step, stepping.steps, scene.output.history);
     const bool snapshot_due = last || is_due(step, stepping.steps, scene.output.snapshots);
@@ -131,7 +137,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     }
     if (observer.progress) observer.progress(step, stepping.steps);
     if (observer.checkpoint_every > 0 && step % observer.checkpoint_every == 0 && !last)
-      observer.checkpoint({simulation.state(), static_cast<const RunExtremes&>(result), guard.supplied(),
+      observer.checkpoint({simulation.states(), static_cast<const RunExtremes&>(result), guard.supplied(),
                            rest ? rest->quiet_steps() : 0});
   }
   return result;

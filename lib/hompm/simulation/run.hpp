@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <hompm/simulation/records.hpp>
 #include <hompm/simulation/simulation.hpp>
@@ -30,7 +31,7 @@ struct RunResult : RunExtremes {
 
 /// Where a run stands after a step: with the scene all that the rest of the run depends on.
 struct RunPoint {
-  State state;
+  std::vector<State> states;  ///< of all bodies
   RunExtremes extremes = {};
   double supplied = 0.0;         ///< largest energy that the loads supplied, J/m²
   std::int64_t quiet_steps = 0;  ///< since a particle last moved too fast for `Scene::rest`

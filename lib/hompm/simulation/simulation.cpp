@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/scheme/join_scheme.hpp>
@@ -24,44 +26,68 @@ void check_particle_count(const SchemeSpec& scheme) {
                        " reconstructs fields from at least " + std::to_string(fewest));
 }
 
-}  // namespace
-
-State start_state(const Scene& scene) {
-  State state = initial_state(scene);
-  prepare_effects(scene, state);
-  return state;
+std::string called_by(const EffectSpec& spec) {
+  return "effect " + spec.type + " (" + spec.origin.text() + ")";
 }
 
-Plan make_plan(const Scene& scene, const State& state) {
-  check_particle_count(scene.scheme);
-  PlanBuilder builder{.scene = scene, .state = state};
-  builder.called_by = "scheme " + scene.scheme.name;
-  join_scheme(make_material(scene.material), builder);
+void join_effects(const Scene& scene, PlanBuilder& builder) {
   for (const bool holding : {false, true})
     for (const EffectSpec& spec : scene.effects) {
       const EffectType& type = find_effect(spec);
-      if (type.holds_end != holding) continue;
-      builder.called_by = "effect " + spec.type + " (" + spec.origin.text() + ")";
+      if (type.couples() || type.holds_end != holding) continue;
+      builder.called_by = called_by(spec);
       type.join(spec, builder);
     }
-  return builder.plan;
+}
+
+std::vector<Coupling> join_pairs(const Scene& scene, std::vector<PlanBuilder>& builders) {
+  std::vector<Coupling> couplings;
+  for (const EffectSpec& spec : scene.effects) {
+    const EffectType& type = find_effect(spec);
+    if (!type.couples()) continue;
+    for (std::size_t k = 0; k + 1 < builders.size(); ++k) {
+      if (spec.body && static_cast<std::size_t>(*spec.body) != k) continue;
+      builders[k].called_by = builders[k + 1].called_by = called_by(spec);
+      type.join_pair(spec, {builders[k], builders[k + 1], k, couplings, called_by(spec)});
+    }
+  }
+  return couplings;
+}
+
+}  // namespace
+
+std::vector<State> start_states(const Scene& scene) {
+  std::vector<State> states;
+  for (const Scene* body : bodies_of(scene)) {
+    states.push_back(initial_state(*body));
+    prepare_effects(*body, states.back());
+  }
+  return states;
 }
 
 Simulation::Simulation(const Scene& scene, double time_step)
-    : material_(make_material(scene.material)),
-      splitting_(splitting(scene.scheme.choices.time_integrator)),
-      state_(start_state(scene)),
-      plan_(make_plan(scene, state_)) {
-  state_.time_step = time_step;
+    : splitting_(splitting(scene.scheme.choices.time_integrator)), states_(start_states(scene)) {
+  std::vector<PlanBuilder> builders;
+  for (const Scene* body : bodies_of(scene)) {
+    check_particle_count(body->scheme);
+    materials_.push_back(make_material(body->material));
+    builders.push_back({.scene = *body, .state = states_[builders.size()]});
+    builders.back().called_by = "scheme " + scene.scheme.name;
+    join_scheme(materials_.back(), builders.back());
+    join_effects(*body, builders.back());
+  }
+  couplings_ = join_pairs(scene, builders);
+  for (PlanBuilder& builder : builders) plans_.push_back(std::move(builder.plan));
+  for (State& state : states_) state.time_step = time_step;
   try {
     for (const Phase phase : {Phase::geometry, Phase::end_stress, Phase::internal_force, Phase::velocity})
-      plan_.run(phase, state_);
+      run(phase, states_);
   } catch (const InvalidRun& error) {
     const auto origin = scene.origins.find("scheme.particles_per_cell");
     throw SceneError(origin == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : origin->second,
                      "the scene cannot be started: " + error.reason);
   }
-  state_.balance = {};
+  for (State& state : states_) state.balance = {};
   const HistoryRow start = history(0.0);
   start_energy_ = total_energy(start);
   start_momentum_ = start.momentum;
@@ -71,57 +97,77 @@ double Simulation::closing_kick() const {
   return splitting_.kicks.size() > splitting_.drifts.size() ? splitting_.kicks.back() : 0.0;
 }
 
+void Simulation::run(Phase phase, std::vector<State>& states) const {
+  for (std::size_t body = 0; body < states.size(); ++body) plans_[body].run(phase, states[body]);
+  for (const Coupling& coupling : couplings_)
+    if (coupling.phase == phase) coupling.run(states[coupling.left], states[coupling.left + 1]);
+}
+
+void Simulation::run_geometry(std::vector<State>& states) const {
+  for (std::size_t body = 0; body < states.size(); ++body)
+    if (states[body].moves) plans_[body].run(Phase::geometry, states[body]);
+}
+
 void Simulation::step() {
-  ++state_.step;
-  const double start = static_cast<double>(state_.step - 1) * state_.time_step;
-  state_.time = static_cast<double>(state_.step) * state_.time_step;
   double drifted = 0.0;
   for (std::size_t part = 0; part < splitting_.drifts.size(); ++part) {
-    const bool start_of_run = state_.step == 1 && part == 0;
-    const double left_from_last_step = part == 0 && !start_of_run ? closing_kick() : 0.0;
-    state_.kick = (left_from_last_step + splitting_.kicks[part]) * state_.time_step;
-    state_.drift = splitting_.drifts[part] * state_.time_step;
-    state_.position_time = start + drifted * state_.time_step;
+    bool start_of_run = false;
+    for (State& state : states_) {
+      if (part == 0) ++state.step;
+      state.time = static_cast<double>(state.step) * state.time_step;
+      const double start = static_cast<double>(state.step - 1) * state.time_step;
+      start_of_run = state.step == 1 && part == 0;
+      const double left_from_last_step = part == 0 && !start_of_run ? closing_kick() : 0.0;
+      state.kick = (left_from_last_step + splitting_.kicks[part]) * state.time_step;
+      state.drift = splitting_.drifts[part] * state.time_step;
+      state.position_time = start + drifted * state.time_step;
+    }
     drifted += splitting_.drifts[part];
-    if (state_.moves && !start_of_run) plan_.run(Phase::geometry, state_);
-    for (const Phase phase : force_phases) plan_.run(phase, state_);
-    for (const Phase phase : motion_phases) plan_.run(phase, state_);
+    if (!start_of_run) run_geometry(states_);
+    for (const Phase phase : force_phases) run(phase, states_);
+    for (const Phase phase : motion_phases) run(phase, states_);
   }
 }
 
-State Simulation::synchronised() const {
-  State state = state_;
-  if (closing_kick() == 0.0 || state.step == 0) return state;
-  state.kick = closing_kick() * state.time_step;
-  state.drift = 0.0;
-  state.position_time = state.time;
-  if (state.moves) plan_.run(Phase::geometry, state);
-  for (const Phase phase : force_phases) plan_.run(phase, state);
-  if (!plan_[Phase::constraint].empty())
-    for (const Phase phase : {Phase::velocity, Phase::constraint}) plan_.run(phase, state);
-  return state;
+std::vector<State> Simulation::synchronised() const {
+  std::vector<State> states = states_;
+  if (closing_kick() == 0.0 || states.front().step == 0) return states;
+  for (State& state : states) {
+    state.kick = closing_kick() * state.time_step;
+    state.drift = 0.0;
+    state.position_time = state.time;
+  }
+  run_geometry(states);
+  for (const Phase phase : force_phases) run(phase, states);
+  const bool held =
+      std::ranges::any_of(plans_, [](const Plan& plan) { return !plan[Phase::constraint].empty(); });
+  if (held || !couplings_.empty())
+    for (const Phase phase : {Phase::velocity, Phase::constraint}) run(phase, states);
+  return states;
 }
 
 Snapshot Simulation::snapshot(double time) const {
-  const State state = synchronised();
-  const Particles& p = state.particles;
+  const std::vector<State> states = synchronised();
   Snapshot s;
   s.time = time;
-  const auto reported = [&](const std::vector<double>& field) {
-    const auto skip = static_cast<std::ptrdiff_t>(p.markers);
-    return std::vector<double>(field.begin() + skip, field.end() - skip);
-  };
-  s.reference_position = reported(p.reference_position);
-  s.displacement = reported(p.displacement);
-  s.velocity = reported(p.velocity);
-  s.volume = reported(p.volume);
-  std::vector<double> stress = p.stress;
-  for (const auto& add : plan_.extra_stresses) add(state, stress);
-  s.stress = reported(stress);
-  s.stretch = reported(p.stretch);
-  for (std::size_t i = p.markers; i < p.size() - p.markers; ++i) {
-    s.position.push_back(p.reference_position[i] + p.displacement[i]);
-    s.density.push_back(state.density(i));
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    const State& state = states[body];
+    const Particles& p = state.particles;
+    const auto report = [&](const std::vector<double>& field, std::vector<double>& reported) {
+      const auto skip = static_cast<std::ptrdiff_t>(p.markers);
+      reported.insert(reported.end(), field.begin() + skip, field.end() - skip);
+    };
+    report(p.reference_position, s.reference_position);
+    report(p.displacement, s.displacement);
+    report(p.velocity, s.velocity);
+    report(p.volume, s.volume);
+    report(p.stress, s.stress);
+    report(p.stretch, s.stretch);
+    for (std::size_t i = p.markers; i < p.size() - p.markers; ++i) {
+      s.position.push_back(p.reference_position[i] + p.displacement[i]);
+      s.density.push_back(state.density(i));
+    }
+    if (states.size() > 1) s.body.resize(s.size(), static_cast<std::int64_t>(body));
   }
   return s;
 }
@@ -131,33 +177,36 @@ double Simulation::total_energy(const HistoryRow& row) const {
 }
 
 HistoryRow Simulation::history(double time) const {
-  const State state = synchronised();
-  const Particles& p = state.particles;
-  HistoryRow row{
-      .time = time, .dissipated = state.balance.dissipated, .external_work = state.balance.external_work};
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    row.mass += p.mass[i];
-    row.momentum += p.mass[i] * p.velocity[i];
-    row.kinetic += 0.5 * p.mass[i] * p.velocity[i] * p.velocity[i];
-  }
-  std::visit(
-      [&](const auto& law) {
-        for (std::size_t i = 0; i < p.size(); ++i)
-          row.stored += p.reference_volume[i] * law.stored_energy(p.stretch[i]);
-      },
-      material_);
-  for (const auto& energy : plan_.stored_energies) row.stored += energy(state);
-  for (const auto& potential : plan_.potentials) row.gravity += potential(state);
-  row.impulse = state.balance.impulse;
-  row.residual = total_energy(row) - start_energy_;
-  row.momentum_residual = row.momentum - start_momentum_ - row.impulse;
-
+  const std::vector<State> states = synchronised();
+  HistoryRow row{.time = time};
   double sum = 0.0;
   double magnitude = 0.0;
-  for (const double f : state.fields.internal_force) {
-    sum += f;
-    magnitude += std::abs(f);
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    const State& state = states[body];
+    const Particles& p = state.particles;
+    row.dissipated += state.balance.dissipated;
+    row.external_work += state.balance.external_work;
+    row.impulse += state.balance.impulse;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      row.mass += p.mass[i];
+      row.momentum += p.mass[i] * p.velocity[i];
+      row.kinetic += 0.5 * p.mass[i] * p.velocity[i] * p.velocity[i];
+    }
+    std::visit(
+        [&](const auto& law) {
+          for (std::size_t i = 0; i < p.size(); ++i)
+            row.stored += p.reference_volume[i] * law.stored_energy(p.stretch[i]);
+        },
+        materials_[body]);
+    for (const auto& energy : plans_[body].stored_energies) row.stored += energy(state);
+    for (const auto& potential : plans_[body].potentials) row.gravity += potential(state);
+    for (const double f : state.fields.internal_force) {
+      sum += f;
+      magnitude += std::abs(f);
+    }
   }
+  row.residual = total_energy(row) - start_energy_;
+  row.momentum_residual = row.momentum - start_momentum_ - row.impulse;
   row.internal_force_sum = magnitude > 0.0 ? std::abs(sum) / magnitude : 0.0;
   return row;
 }

@@ -8,12 +8,11 @@
 
 namespace hompm {
 
-/// The stages that the scene and its scheme call for. Throws `SceneError` when they do not go together.
-Plan make_plan(const Scene& scene, const State& state);
+/// The states of all bodies at t = 0, with what effects add and change.
+std::vector<State> start_states(const Scene& scene);
 
-/// The initial state of a scene, with what its effects add and change.
-State start_state(const Scene& scene);
-
+/// Each body of a scene has a state and a plan, and its own grid: bodies never mix in one velocity field.
+/// They take the phases of a step together, and what they do to each other stands between.
 class Simulation {
  public:
   /// State and plan at t = 0, with steps of `time_step` (s). Throws `SceneError` when scene and scheme do not
@@ -23,12 +22,15 @@ class Simulation {
   /// One time step. Throws `InvalidRun` when it cannot be carried out; the state is then of no use.
   void step();
 
-  [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] std::size_t bodies() const { return states_.size(); }
+  [[nodiscard]] const State& state(std::size_t body = 0) const { return states_[body]; }
+  [[nodiscard]] const Plan& plan(std::size_t body = 0) const { return plans_[body]; }
   /// For tests, restarts and the linear stability analysis, which set fields of their own before a step.
-  [[nodiscard]] State& state() { return state_; }
+  [[nodiscard]] State& state(std::size_t body = 0) { return states_[body]; }
   /// For recorders, which add stages of their own before a step.
-  [[nodiscard]] Plan& plan() { return plan_; }
+  [[nodiscard]] Plan& plan(std::size_t body = 0) { return plans_[body]; }
+  [[nodiscard]] const std::vector<State>& states() const { return states_; }
+  [[nodiscard]] const std::vector<Coupling>& couplings() const { return couplings_; }
 
   /// Particle fields and balances now, with time stamp `time` (s).
   [[nodiscard]] Snapshot snapshot(double time) const;
@@ -38,13 +40,17 @@ class Simulation {
   [[nodiscard]] double total_energy(const HistoryRow& row) const;
   /// The kick that a step leaves to the next, as part of the step: ½ in leapfrog.
   [[nodiscard]] double closing_kick() const;
-  /// The state with that kick done: velocities and momentum at the time of the positions.
-  [[nodiscard]] State synchronised() const;
+  /// The states with that kick done: velocities and momentum at the time of the positions.
+  [[nodiscard]] std::vector<State> synchronised() const;
+  /// The stages of a phase, body by body, then what couples them.
+  void run(Phase phase, std::vector<State>& states) const;
+  void run_geometry(std::vector<State>& states) const;
 
-  Material material_;
   Splitting splitting_;
-  State state_;
-  Plan plan_;
+  std::vector<Material> materials_;
+  std::vector<State> states_;
+  std::vector<Plan> plans_;
+  std::vector<Coupling> couplings_;
   double start_energy_ = 0.0;
   double start_momentum_ = 0.0;
 };

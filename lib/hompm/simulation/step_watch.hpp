@@ -9,9 +9,9 @@ namespace hompm::detail {
 /// that it costs less than 1 % of them, and raises `largest_step_fraction`. What it does depends on state and
 /// extremes alone, so that a resumed run goes on with the same bits. Nothing moves with infinitesimal
 /// kinematics, and nothing is looked at.
-void watch_step(const Scene& scene, const Material& material, const State& state, RunExtremes& extremes);
+void watch_step(const Scene& scene, const std::vector<State>& states, RunExtremes& extremes);
 
-/// Speed of the fastest waves in the body, m/s: √(dσ/dε / ρ).
-double fastest_wave(const Material& material, const State& state);
+/// Speed of the fastest waves in the bodies, m/s: √(dσ/dε / ρ).
+double fastest_wave(const Scene& scene, const std::vector<State>& states);
 
 }  // namespace hompm::detail

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <hompm/number.hpp>
@@ -18,8 +20,12 @@ double asked_step(const Scene& scene, double critical) {
   const SchemeSpec& scheme = scene.scheme;
   if (scheme.time_step) return *scheme.time_step;
   if (scheme.step_fraction) return *scheme.step_fraction * critical;
-  const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
-  return *scheme.courant * (scene.body.length / scheme.cells) / wave_speed;
+  double shortest = std::numeric_limits<double>::infinity();  // time of a wave through a cell
+  for (const Scene* body : bodies_of(scene)) {
+    const double wave_speed = std::sqrt(body->material.youngs_modulus / body->material.density);
+    shortest = std::min(shortest, *scheme.courant * (body->body.length / body->scheme.cells) / wave_speed);
+  }
+  return shortest;
 }
 
 }  // namespace
@@ -31,7 +37,9 @@ TimeStepping time_stepping(const Scene& scene) {
   const Origin origin = said != scene.origins.end() ? said->second : Origin{key};
 
   TimeStepping result;
-  result.critical_time_step = critical_time_step(scene);
+  result.critical_time_step = std::numeric_limits<double>::infinity();
+  for (const Scene* body : bodies_of(scene))  // what couples them is implicit, and takes nothing
+    result.critical_time_step = std::min(result.critical_time_step, critical_time_step(*body));
   const double asked = asked_step(scene, result.critical_time_step);
   if (asked > result.critical_time_step && !scene.scheme.allow_unstable)
     throw SceneError(origin, key + ": a time step of " + to_text(asked) +

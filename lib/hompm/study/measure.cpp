@@ -56,7 +56,7 @@ void run_and_judge(const Scene& scene, const Check& check, Measured& measured) {
   std::vector<State> moments;
   RunObserver observer;
   observer.progress = [&](std::int64_t, std::int64_t) { check(); };
-  observer.checkpoint = [&](const RunPoint& point) { moments.push_back(point.state); };
+  observer.checkpoint = [&](const RunPoint& point) { moments.push_back(point.states.front()); };
   observer.checkpoint_every = std::max<std::int64_t>(stepping.steps / (states_of(scene) + 1), 1);
   const RunResult result = run(scene, stepping, observer);
   // The first step finds the geometry ready and is cheaper: it counts only where there is no other.
@@ -82,6 +82,8 @@ Measured measure(const Study& study, const Point& point, const std::string& prog
   try {
     const Scene scene = measured_scene(study, point);
     record.scene = scene_text(scene);
+    if (!scene.bodies.empty())
+      throw SceneError(Origin{scene.case_name}, "a study measures scenes of one body");
     record.scheme = scene.scheme.name;
     record.degree = scene.scheme.degree;
     record.cells = scene.scheme.cells;

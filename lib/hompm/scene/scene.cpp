@@ -9,4 +9,11 @@ double velocity_at(const InitialVelocity& initial, double place, double length) 
   return initial.amplitude * numerics::sin_pi(initial.mode * place);
 }
 
+std::vector<const Scene*> bodies_of(const Scene& scene) {
+  if (scene.bodies.empty()) return {&scene};
+  std::vector<const Scene*> all;
+  for (const Scene& body : scene.bodies) all.push_back(&body);
+  return all;
+}
+
 }  // namespace hompm
