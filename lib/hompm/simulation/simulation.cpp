@@ -161,7 +161,9 @@ Snapshot Simulation::snapshot(double time) const {
     report(p.displacement, s.displacement);
     report(p.velocity, s.velocity);
     report(p.volume, s.volume);
-    report(p.stress, s.stress);
+    std::vector<double> stress = p.stress;
+    for (const auto& add : plans_[body].extra_stresses) add(state, stress);
+    report(stress, s.stress);
     report(p.stretch, s.stretch);
     for (std::size_t i = p.markers; i < p.size() - p.markers; ++i) {
       s.position.push_back(p.reference_position[i] + p.displacement[i]);
