@@ -19,6 +19,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -73,6 +74,12 @@ constexpr bool hompm_mutant(int number) {
 def run(*command, timeout=None, **variables):
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, errors="replace", check=False,
                           timeout=timeout, env=os.environ | variables)
+
+
+def used_seconds():
+    """Of processor time, which other work on the machine does not lengthen."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def sources():
@@ -171,10 +178,10 @@ class Mutation:
                 if name.startswith(NOT_RUN):
                     continue
                 file.write_bytes(bytes(self.size))
-                start = time.monotonic()
+                start = used_seconds()
                 if not self.test((program, name), HOMPM_REACHED=str(file)):
                     sys.exit(f"mutate: the test `{name}` fails on the code as it is")
-                seconds = time.monotonic() - start
+                seconds = used_seconds() - start
                 if seconds < LONG:
                     self.seconds[program, name] = seconds
                     self.reached[program, name] = {number for number, byte in enumerate(file.read_bytes()) if byte}
@@ -185,7 +192,7 @@ class Mutation:
 
     def judged(self, tests, **variables):
         for test in sorted(tests, key=lambda test: self.seconds[test]):
-            if not self.test(test, 20.0 + 10.0 * self.seconds[test], **variables):
+            if not self.test(test, 60.0 + 20.0 * self.seconds[test], **variables):
                 return "killed"
         return "survived"
 
@@ -214,6 +221,10 @@ def stored(path, empty):
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else empty
 
 
+def save(results):
+    RESULTS.write_text(json.dumps(results, indent=1, ensure_ascii=False, sort_keys=True) + "\n", encoding="utf-8")
+
+
 def reasons():
     return tomllib.loads(REASONS.read_text(encoding="utf-8")) if REASONS.exists() else {}
 
@@ -237,10 +248,11 @@ def table(results):
     count, killed, share = summary(results)
     known = reasons()
     others = collections.Counter(entry["verdict"] for entry in results.values() if entry["verdict"] not in DONE)
-    commits = ", ".join(sorted({entry["commit"] for entry in results.values()}))
+    commits = " and ".join(sorted({entry["commit"] for entry in results.values()}))
     text = ["# Mutation run", "", "Written by `coverage/mutate.py`; [what it means](README.md#mutants).", "",
-            f"{killed} of {count} mutants are killed: {share:.1f} %. {others['not compiled']} more do not compile, and "
-            f"{others['not run']} need a build of their own of too much. Run at {commits}.", "",
+            f"{killed} of {count} mutants are killed: {share:.1f} %. Of {max(COUNT, len(results))} that were drawn "
+            f"{others['not compiled']} do not compile, and {max(COUNT, len(results)) - count - others['not compiled']} were not run: "
+            f"most need a build of their own. Run at {commits}.", "",
             *share_table("room", results, "room"), "", *share_table("change", results, "kind"), "", "## Survivors", "",
             "| mutant | where | change | why no test notices |", "| --- | --- | --- | --- |"]
     for identity, entry in sorted(results.items(), key=lambda item: (item[1]["path"], item[0])):
@@ -274,7 +286,7 @@ def run_mutants(sample, results, seconds, jobs):
     def keep(mutant, verdict):
         results[mutant.identity] = {"path": mutant.path, "room": mutant.room, "kind": mutant.kind, "before": mutant.before,
                                     "after": mutant.after, "verdict": verdict, "commit": commit}
-        RESULTS.write_text(json.dumps(results, indent=1, ensure_ascii=False, sort_keys=True) + "\n", encoding="utf-8")
+        save(results)
         print(f"{verdict:12} {mutant.identity} {mutant.path}:{mutant.line}: {mutant.before.strip()}  ->  {mutant.after.strip()}",
               flush=True)
 
@@ -319,6 +331,7 @@ def main():
             print("\n".join(f"{m.identity} {m.kind:10} {m.path}:{m.line}: {m.after.strip()}" for m in sample))
             return 0
         run_mutants(sample, results, given.seconds, given.jobs)
+        save(results)
         TABLE.write_text(table(results), encoding="utf-8")
     elif not TABLE.exists() or TABLE.read_text(encoding="utf-8") != table(results):
         print(f"mutate: {TABLE.name} is not what {RESULTS.name} and {REASONS.name} say; run coverage/mutate.py --count 0")

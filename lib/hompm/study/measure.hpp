@@ -36,8 +36,8 @@ double timed(const Scene& scene);
 /// States to step from, as a file: what `hompm-study --count` reads. Throws `FileError`.
 void write_moments(const std::filesystem::path& folder, const Measured& measured);
 
-/// Does one step from each of the states that `write_moments` left in `folder`: the step that the run did from
-/// there. How many steps that were. Throws `FileError`.
+/// Does one step from each of the states that `write_moments` left in `folder`: the step that the run did
+/// from there. How many steps that were. Throws `FileError`.
 std::int64_t step_from_moments(const std::filesystem::path& folder);
 
 }  // namespace hompm::study
