@@ -29,7 +29,7 @@ std::string degrees(const Scheme& scheme) {
 
 std::string effects_left_out(const hompm::Scene& scene) {
   std::string names;
-  for (const auto& type : hompm::effect_catalogue()) {
+  for (const auto& type : hompm::effects_of(scene)) {
     const auto is_present = [&](const hompm::EffectSpec& spec) { return spec.type == type.name; };
     if (std::none_of(scene.effects.begin(), scene.effects.end(), is_present))
       names += (names.empty() ? "" : ", ") + type.name;

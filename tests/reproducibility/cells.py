@@ -14,15 +14,20 @@ class Cell:
     emulator: tuple = ()  # what runs the program
     environment: tuple = ()  # (name, value)
     cpu_flag: str = ""  # of /proc/cpuinfo, without which the program cannot run
+    leave_out: str = ""  # effects not compiled in
     refused_with: str = ""  # the program must end with this message instead of results
     seconds: int = 30  # of processor time, build and run; ctest begins with the longest
 
 
 NO_FMA = ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX512F,-AVX2,-FMA,-FMA4")
 
+# No golden folder calls for these: their absence must not change a bit.
+UNUSED_EFFECTS = "traction;mass_damping;viscosity;bulk_viscosity;manufactured;plasticity"
+
 CELLS = {
     "g++ -O0": Cell("gcc-O0", flags="-O0", seconds=70),
     "g++ -O2": Cell("gcc-O2"),
+    "g++ -O2 without the effects that are not called for": Cell("gcc-O2-few-effects", leave_out=UNUSED_EFFECTS),
     "g++ -O3 -march=native": Cell("gcc-O3-native", flags="-O3 -march=native"),
     "g++ -O2 with LTO": Cell("gcc-O2-lto", lto=True, seconds=40),
     "clang++ -O0": Cell("clang-O0", "clang++", "-O0", seconds=70),

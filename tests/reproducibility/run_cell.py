@@ -53,7 +53,7 @@ def why_not(cell):
 def build(cell, folder, headers):
     """Builds golden_runner and returns the folder of its build."""
     configure = ["cmake", "-S", HERE / "cell", "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
-                 f"-DCMAKE_CXX_FLAGS={cell.flags}", f"-DHOMPM_LAST_FLAGS={cell.last_flags}",
+                 f"-DCMAKE_CXX_FLAGS={cell.flags}", f"-DHOMPM_LAST_FLAGS={cell.last_flags}", f"-DHOMPM_LEAVE_OUT_EFFECTS={cell.leave_out}",
                  f"-DCMAKE_INTERPROCEDURAL_OPTIMIZATION={'ON' if cell.lto else 'OFF'}"]
     if headers:
         configure.append("-DHOMPM_HEADERS=" + ";".join(headers))

@@ -1,29 +1,13 @@
-#include <hompm/effects/effects.hpp>
 #include <hompm/effects/registry.hpp>
 
 namespace hompm {
 
-const EffectCatalogue& effect_catalogue() {
-  static const EffectCatalogue catalogue{
-      detail::gravity(),         //
-      detail::traction(),        //
-      detail::mass_damping(),    //
-      detail::local_damping(),   //
-      detail::viscosity(),       //
-      detail::bulk_viscosity(),  //
-      detail::manufactured(),    //
-      detail::plasticity(),      //
-      detail::piston(),          //
-      detail::wall(),            //
-      detail::absorbing(),       //
-      detail::contact(),         //
-      detail::interface(),       //
-  };
-  return catalogue;
+const EffectCatalogue& effects_of(const Scene& scene) {
+  return scene.effect_types != nullptr ? *scene.effect_types : effect_catalogue();
 }
 
-const EffectType& find_effect(const EffectSpec& spec) {
-  for (const EffectType& type : effect_catalogue())
+const EffectType& find_effect(const Scene& scene, const EffectSpec& spec) {
+  for (const EffectType& type : effects_of(scene))
     if (type.name == spec.type) return type;
   throw SceneError(spec.origin, "there is no effect " + spec.type);
 }
@@ -39,20 +23,21 @@ bool EffectType::holds(const EffectSpec& spec, const std::string& end, std::int6
 
 void prepare_effects(const Scene& scene, State& state) {
   for (const EffectSpec& spec : scene.effects)
-    if (const auto prepare = find_effect(spec).prepare; prepare != nullptr) prepare(spec, scene, state);
+    if (const auto prepare = find_effect(scene, spec).prepare; prepare != nullptr)
+      prepare(spec, scene, state);
 }
 
 double viscous_time(const Scene& scene) {
   double sum = 0.0;
   for (const EffectSpec& spec : scene.effects)
-    if (const auto time = find_effect(spec).viscous_time; time != nullptr) sum += time(spec, scene);
+    if (const auto time = find_effect(scene, spec).viscous_time; time != nullptr) sum += time(spec, scene);
   return sum;
 }
 
 double damping_rate(const Scene& scene) {
   double sum = 0.0;
   for (const EffectSpec& spec : scene.effects)
-    if (const auto rate = find_effect(spec).damping_rate; rate != nullptr) sum += rate(spec);
+    if (const auto rate = find_effect(scene, spec).damping_rate; rate != nullptr) sum += rate(spec);
   return sum;
 }
 

@@ -58,11 +58,14 @@ struct EffectType {
                            std::int64_t count) const;
 };
 
-/// All effects, in the order in which `--list` shows them.
+/// The effects of the library, in the order in which `--list` shows them (catalogue.cmake).
 const EffectCatalogue& effect_catalogue();
 
-/// The row of the catalogue that an effect of the scene means. Throws `SceneError` where there is none.
-const EffectType& find_effect(const EffectSpec& spec);
+/// What the names of effects mean in this scene: `Scene::effect_types`, or the library's own.
+const EffectCatalogue& effects_of(const Scene& scene);
+
+/// The row that an effect of the scene means. Throws `SceneError` where there is none.
+const EffectType& find_effect(const Scene& scene, const EffectSpec& spec);
 
 /// `EffectType::prepare` of all effects of the scene.
 void prepare_effects(const Scene& scene, State& state);

@@ -47,6 +47,8 @@ struct Ends {
   End right = End::fixed;
 };
 
+struct EffectType;
+
 /// One `[[effect]]` table. Which parameters it has is the business of the effect (effects/registry.hpp).
 struct EffectSpec {
   using Value = std::variant<double, std::int64_t, std::string>;
@@ -114,6 +116,9 @@ struct Scene {
   /// effects that act on it alone. Body, material, ends and the like of this scene are then those of the
   /// first.
   std::vector<Scene> bodies;
+
+  /// What the types of effects mean; null: what the library brings. Must outlive the scene.
+  const std::vector<EffectType>* effect_types = nullptr;
 
   /// Where each key was said ("scheme.cells", "effect[0].acceleration"); a key left to its default is absent.
   std::map<std::string, Origin> origins;

@@ -74,7 +74,7 @@ std::string name_in_body(const std::string& path) {
 }
 
 bool concerns(const Reading& reading, const EffectSpec& effect) {
-  const EffectType& type = find_effect(effect);
+  const EffectType& type = find_effect(reading.scene, effect);
   if (!type.couples()) return effect.body.value_or(reading.body) == reading.body;
   return type.holds(effect, "left", reading.body, reading.bodies) ||
          type.holds(effect, "right", reading.body, reading.bodies);

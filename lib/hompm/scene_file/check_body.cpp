@@ -54,7 +54,7 @@ void check_held_ends(Reading& reading) {
   for (const std::string end : {"left", "right"}) {
     const EffectSpec* holder = nullptr;
     for (const EffectSpec& effect : reading.scene.effects) {
-      if (!find_effect(effect).holds(effect, end, reading.body, reading.bodies)) continue;
+      if (!find_effect(reading.scene, effect).holds(effect, end, reading.body, reading.bodies)) continue;
       if (holder == nullptr)
         holder = &effect;
       else

@@ -6,14 +6,9 @@
 namespace hompm::detail {
 namespace {
 
-const EffectType& find_effect(const std::string& name) {
-  return *std::find_if(effect_catalogue().begin(), effect_catalogue().end(),
-                       [&](const EffectType& type) { return type.name == name; });
-}
-
-ValueRule type_rule() {
+ValueRule type_rule(const Scene& scene) {
   ValueRule rule{.type = ValueType::word};
-  for (const EffectType& type : effect_catalogue()) rule.words.push_back(type.name);
+  for (const EffectType& type : effects_of(scene)) rule.words.push_back(type.name);
   return rule;
 }
 
@@ -66,7 +61,7 @@ void read_parameters(Reading& reading, const EffectType& type, const std::string
 // What acts on an end that does not move would do nothing.
 void check_end(Reading& reading, const EffectSpec& effect, const std::string& path) {
   if (!concerns(reading, effect)) return;
-  const EffectType& type = find_effect(effect.type);
+  const EffectType& type = find_effect(reading.scene, effect);
   for (const std::string end : {"left", "right"}) {
     const auto parameter = effect.parameters.find("end");
     const bool named =
@@ -87,7 +82,7 @@ void check_end(Reading& reading, const EffectSpec& effect, const std::string& pa
 
 void check_effects(Reading& reading) {
   for (const EffectSpec& effect : reading.scene.effects) {
-    const EffectType& type = find_effect(effect.type);
+    const EffectType& type = find_effect(reading.scene, effect);
     if (type.couples() && reading.bodies == 1)
       reading.report(effect.origin,
                      "the effect " + effect.type + " is between two bodies; the scene has one");
@@ -99,7 +94,7 @@ void check_effects(Reading& reading) {
 }
 
 void read_effects(Reading& reading) {
-  const ValueRule rule = type_rule();
+  const ValueRule rule = type_rule(reading.scene);
   for (std::size_t index = 0; !reading.silent_on(effect_path(index)); ++index) {
     const std::string path = effect_path(index);
     const SaidValue& table = reading.said.values.at(path);
@@ -114,7 +109,7 @@ void read_effects(Reading& reading) {
       reading.report(table.value, "the `type` of the effect is missing; it must be " + demand(rule));
     } else if (const auto type = reading.take(type_key, "the `type` of an effect", rule)) {
       effect.type = std::get<std::string>(*type);
-      read_parameters(reading, find_effect(effect.type), path, effect);
+      read_parameters(reading, find_effect(reading.scene, effect), path, effect);
       check_end(reading, effect, path);
       reading.scene.effects.push_back(std::move(effect));
     }

@@ -28,9 +28,9 @@ std::string elsewhere(const std::string& name) {
   return "";
 }
 
-bool is_effect(const std::string& name) {
-  return std::any_of(effect_catalogue().begin(), effect_catalogue().end(),
-                     [&](const EffectType& type) { return type.name == name; });
+bool is_effect(const Reading& reading, const std::string& name) {
+  return std::ranges::any_of(effects_of(reading.scene),
+                             [&](const EffectType& type) { return type.name == name; });
 }
 
 void report_unknown_option(Reading& reading, const std::string& path, const SaidValue& value) {
@@ -53,7 +53,7 @@ void report_unknown(Reading& reading, const std::string& path, const SaidValue& 
     message += table ? "; did you mean [" + meant + "]?" : "; did you mean `" + last_name(meant) + "`?";
   } else if (meant = elsewhere(value.name); !meant.empty()) {
     message += table ? "; did you mean [" + meant + "]?" : "; it belongs " + place(parent_path(meant));
-  } else if (is_effect(value.name)) {
+  } else if (is_effect(reading, value.name)) {
     message += "; an effect is written [[effect]] with type = \"" + value.name + '"';
   } else {
     message += "; known here: " + listed(names);

@@ -82,6 +82,7 @@ void read_bodies(Reading& reading, const std::vector<Said>& bodies) {
     Reading own{.said = said,
                 .body = static_cast<std::int64_t>(scenes.size()),
                 .bodies = static_cast<std::int64_t>(bodies.size())};
+    own.scene.effect_types = reading.scene.effect_types;
     read_body(own);
     for (Problem& problem : own.problems) {
       const auto same = [&](const Problem& other) {
@@ -101,7 +102,7 @@ void read_bodies(Reading& reading, const std::vector<Said>& bodies) {
   if (reading.problems.empty())
     for (std::size_t body = 0; body < scenes.size(); ++body)
       std::erase_if(scenes[body].effects, [&](const EffectSpec& effect) {
-        return find_effect(effect).couples() ||
+        return find_effect(reading.scene, effect).couples() ||
                effect.body.value_or(static_cast<std::int64_t>(body)) != static_cast<std::int64_t>(body);
       });
   reading.scene.bodies = std::move(scenes);
@@ -129,8 +130,9 @@ std::string file_text(const std::string& path) {
 }  // namespace detail
 
 Scene parse_scene(const std::string& text, const std::string& source,
-                  const std::vector<Override>& overrides) {
+                  const std::vector<Override>& overrides, const EffectCatalogue& effects) {
   detail::Reading reading{.said = detail::read_toml(text, source)};
+  reading.scene.effect_types = &effects;
   detail::apply_overrides(reading, overrides);
   const std::vector<detail::Said> bodies = detail::said_of_bodies(reading);
   if (bodies.empty())
@@ -144,8 +146,9 @@ Scene parse_scene(const std::string& text, const std::string& source,
   return std::move(reading.scene);
 }
 
-Scene load_scene(const std::string& path, const std::vector<Override>& overrides) {
-  return parse_scene(detail::file_text(path), path, overrides);
+Scene load_scene(const std::string& path, const std::vector<Override>& overrides,
+                 const EffectCatalogue& effects) {
+  return parse_scene(detail::file_text(path), path, overrides, effects);
 }
 
 }  // namespace hompm

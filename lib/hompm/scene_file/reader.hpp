@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/scene/scene.hpp>
 
 namespace hompm {
@@ -36,10 +37,14 @@ Scene load_builtin(const std::string& case_name, const std::string& variant,
 /// A scene file with the overrides applied. Throws `FileError` when it cannot be read, `SceneError` with
 /// *all* problems of the file otherwise, each with file, line and column, the offending value and the nearest
 /// valid one.
-Scene load_scene(const std::string& path, const std::vector<Override>& overrides);
+///
+/// `effects` is what a scene may call for, the library's own or those and more; it must outlive the scene.
+Scene load_scene(const std::string& path, const std::vector<Override>& overrides,
+                 const EffectCatalogue& effects = effect_catalogue());
 
 /// A scene from text; `source` names it in messages. Throws as `load_scene`.
-Scene parse_scene(const std::string& text, const std::string& source, const std::vector<Override>& overrides);
+Scene parse_scene(const std::string& text, const std::string& source, const std::vector<Override>& overrides,
+                  const EffectCatalogue& effects = effect_catalogue());
 
 /// The resolved scene as TOML, every default written out; reading it gives the same scene, and writing that
 /// the same bytes.

@@ -20,8 +20,8 @@ std::string value_text(const EffectSpec::Value& value) {
   return detail::toml_string(std::get<std::string>(value));
 }
 
-std::string unit_of(const std::string& effect, const std::string& parameter) {
-  for (const EffectType& type : effect_catalogue()) {
+std::string unit_of(const Scene& scene, const std::string& effect, const std::string& parameter) {
+  for (const EffectType& type : effects_of(scene)) {
     if (type.name != effect) continue;
     for (const EffectParameter& row : type.parameters) {
       if (row.name == parameter) return detail::rule_of(row).unit;
@@ -30,11 +30,11 @@ std::string unit_of(const std::string& effect, const std::string& parameter) {
   return "";
 }
 
-std::string effect_text(const EffectSpec& effect) {
+std::string effect_text(const Scene& scene, const EffectSpec& effect) {
   std::string text = "\n[[effect]]\n" + line("type", detail::toml_string(effect.type), "");
   if (effect.body) text += line("body", std::to_string(*effect.body), "");
   for (const auto& [name, value] : effect.parameters)
-    text += line(name, value_text(value), unit_of(effect.type, name));
+    text += line(name, value_text(value), unit_of(scene, effect.type, name));
   return text;
 }
 
@@ -66,7 +66,7 @@ std::string scene_text(const Scene& scene) {
     if (value.empty()) continue;
     if (parent != table) {
       if (table == "ends") {
-        for (const EffectSpec& effect : scene.effects) text += effect_text(effect);
+        for (const EffectSpec& effect : scene.effects) text += effect_text(scene, effect);
       }
       text += "\n[" + parent + "]\n";
       table = parent;

@@ -33,7 +33,7 @@ std::string called_by(const EffectSpec& spec) {
 void join_effects(const Scene& scene, PlanBuilder& builder) {
   for (const bool holding : {false, true})
     for (const EffectSpec& spec : scene.effects) {
-      const EffectType& type = find_effect(spec);
+      const EffectType& type = find_effect(scene, spec);
       if (type.couples() || type.holds_end != holding) continue;
       builder.called_by = called_by(spec);
       type.join(spec, builder);
@@ -43,7 +43,7 @@ void join_effects(const Scene& scene, PlanBuilder& builder) {
 std::vector<Coupling> join_pairs(const Scene& scene, std::vector<PlanBuilder>& builders) {
   std::vector<Coupling> couplings;
   for (const EffectSpec& spec : scene.effects) {
-    const EffectType& type = find_effect(spec);
+    const EffectType& type = find_effect(scene, spec);
     if (!type.couples()) continue;
     for (std::size_t k = 0; k + 1 < builders.size(); ++k) {
       if (spec.body && static_cast<std::size_t>(*spec.body) != k) continue;
