@@ -356,6 +356,17 @@ def output(tools):
     return ["```text", *lines[:start], "  ...", *lines[stop:], "```"]
 
 
+def source(path, language, begin=None, end=None):
+    """A file of the tree as it is, or its lines from one that starts with `begin` to the next that is `end`."""
+    def part(_tools):
+        lines = (ROOT / path).read_text(encoding="utf-8").rstrip("\n").split("\n")
+        if begin is not None:
+            first = next(i for i, line in enumerate(lines) if line.startswith(begin))
+            lines = lines[first:next(i for i in range(first, len(lines)) if lines[i] == end) + 1]
+        return [f"```{language}", *lines, "```"]
+    return part
+
+
 def examples(_tools):
     rows = []
     for path in sorted((ROOT / "docs/scenes").glob("*.toml")):
@@ -367,7 +378,14 @@ def examples(_tools):
 PARTS = {
     "schemes": schemes, "choices": choices, "cases": cases, "plan": plan, "output": output, "limits": limits, "limits-p1": limits_p1,
     "limit-map": limit_map, "limit-cut": limit_cut,
-    "rooms": rooms, "examples": examples, "mistake": mistake, "parting": parting,
+    "rooms": rooms, "examples": examples,
+    "effect-file": source("lib/hompm/effects/mass_damping.cpp", "cpp"),
+    "effect-line": source("lib/hompm/effects/catalogue.cmake", "cmake", "  mass_damping", "  mass_damping"),
+    "effect-scene": source("docs/scenes/mass-damping.toml", "toml"),
+    "effect-test": source("tests/verification/effects_test.cpp", "cpp", "TEST_CASE(\"mass-proportional damping", "}"),
+    "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
+    "outside-effect": source("tests/package/drag.cpp", "cpp"),
+    "mistake": mistake, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,
