@@ -22,7 +22,7 @@ class Cell:
 NO_FMA = ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX512F,-AVX2,-FMA,-FMA4")
 
 # No golden folder calls for these: their absence must not change a bit.
-UNUSED_EFFECTS = "traction;mass_damping;viscosity;bulk_viscosity;manufactured;plasticity;piston;wall;absorbing"
+UNUSED_EFFECTS = "traction;mass_damping;viscosity;bulk_viscosity;manufactured;plasticity;piston;wall;absorbing;contact;interface"
 
 CELLS = {
     "g++ -O0": Cell("gcc-O0", flags="-O0", seconds=70),

@@ -68,7 +68,7 @@ TEST_CASE("an effect of zero strength changes no bit") {
 
 TEST_CASE("no effect is forgotten by the test of zero strength") {
   CHECK(hompm::effect_catalogue().size() ==
-        8 + 3);  // piston, wall and absorbing are conditions, without a strength
+        8 + 5);  // what holds ends and couples bodies are conditions, without a strength
 }
 
 TEST_CASE("what no effect calls for is not in the plan, nor in the state") {

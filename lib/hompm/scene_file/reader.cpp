@@ -129,8 +129,8 @@ std::string file_text(const std::string& path) {
 }  // namespace
 }  // namespace detail
 
-Scene parse_scene(const std::string& text, const std::string& source,
-                  const std::vector<Override>& overrides, const EffectCatalogue& effects) {
+Scene parse_scene(const std::string& text, const std::string& source, const std::vector<Override>& overrides,
+                  const EffectCatalogue& effects) {
   detail::Reading reading{.said = detail::read_toml(text, source)};
   reading.scene.effect_types = &effects;
   detail::apply_overrides(reading, overrides);
