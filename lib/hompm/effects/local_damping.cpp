@@ -24,7 +24,8 @@ EffectType local_damping() {
               "finding rest",
           .parameters =
               {{.name = "coefficient", .unit = "-", .meaning = "fraction", .minimum = 0.0, .maximum = 0.99}},
-          .join = join};
+          .join = join,
+          .force_factor = [](const EffectSpec& spec) { return 1.0 + spec.number("coefficient"); }};
 }
 
 }  // namespace hompm::detail

@@ -34,6 +34,13 @@ double viscous_time(const Scene& scene) {
   return sum;
 }
 
+double force_factor(const Scene& scene) {
+  double product = 1.0;
+  for (const EffectSpec& spec : scene.effects)
+    if (const auto factor = find_effect(spec).force_factor; factor != nullptr) product *= factor(spec);
+  return product;
+}
+
 double damping_rate(const Scene& scene) {
   double sum = 0.0;
   for (const EffectSpec& spec : scene.effects)

@@ -44,6 +44,8 @@ struct EffectType {
   void (*prepare)(const EffectSpec& spec, const Scene& scene, State& state) = nullptr;
   /// β (1/s) where the effect is the body force −β v, likewise.
   double (*damping_rate)(const EffectSpec& spec) = nullptr;
+  /// The factor by which the effect may enlarge the force out of balance, likewise.
+  double (*force_factor)(const EffectSpec& spec) = nullptr;
   /// Decides how an end moves (its parameter `end`, which must be free): one such effect at each end, joined
   /// after all others.
   bool holds_end = false;
@@ -74,5 +76,7 @@ void prepare_effects(const Scene& scene, State& state);
 double viscous_time(const Scene& scene);
 /// What `damping_rate` of all effects of the scene comes to (1/s).
 double damping_rate(const Scene& scene);
+/// The product of `force_factor` of all effects of the scene.
+double force_factor(const Scene& scene);
 
 }  // namespace hompm

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <hompm/plan/state.hpp>
 
@@ -15,7 +16,16 @@ numerics::SplineSpace make_grid(const Scene& scene) {
   const auto& [from, to] = scene.grid;
   const int left = margin(scene.ends.left, from ? std::optional(scene.body.left() - *from) : std::nullopt);
   const int right = margin(scene.ends.right, to ? std::optional(*to - scene.body.right()) : std::nullopt);
-  return {scene.scheme.degree, scene.scheme.cells + left + right, scene.body.left() - left * width, width};
+  const auto grid_of = [&](double h) {
+    return numerics::SplineSpace(scene.scheme.degree, scene.scheme.cells + left + right,
+                                 scene.body.left() - left * h, h);
+  };
+  // A width that was rounded down may leave the end of the body just outside: a hair more does not.
+  double h = width;
+  for (double hair = std::numeric_limits<double>::epsilon(); grid_of(h).locate(scene.body.right()).cell < 0;
+       hair *= 2.0)
+    h = width * (1.0 + hair);
+  return grid_of(h);
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ CriticalStep::CriticalStep(const Scene& scene)
       viscous_time_(viscous_time(scene)),
       damping_rate_(damping_rate(scene)),
       relaxation_rate_(scene.scheme.relaxation_rate),
+      force_factor_(force_factor(scene)),
       start_(Simulation(scene, 1.0).state()),
       linear_(scene) {}
 
@@ -80,9 +81,11 @@ double CriticalStep::of_linearised() {
   const auto radius = numerics::spectral_radius(
       linear_.size(), [&](const auto& stress, auto& result) { linear_.apply(stress, result); }, tolerance,
       most_rounds);
+  // A force that grows by the factor acts as a stiffness that does.
+  const double omega2 = radius.value * force_factor_;
   // v' = v − Δt (ω² σ + 2 b v), σ' = σ + Δt v' is stable up to Δt² ω² + 4 Δt b = 4 (docs/stability.md).
-  const double b = 0.5 * (viscous_time_ * radius.value + damping_rate_);
-  const double limit = phase_ / (b + std::sqrt(b * b + radius.value));
+  const double b = 0.5 * (viscous_time_ * omega2 + damping_rate_);
+  const double limit = phase_ / (b + std::sqrt(b * b + omega2));
   // u += Δt/τ (û − u) turns the hidden part of u around at Δt = τ, and lets it grow from 2 τ on.
   return limit * relaxation_rate_ > 2.0 ? 2.0 / relaxation_rate_ : limit;
 }

@@ -33,6 +33,7 @@ class CriticalStep {
   double viscous_time_;  ///< s, of the effects
   double damping_rate_;  ///< 1/s
   double relaxation_rate_;
+  double force_factor_;
   State start_;
   LinearStep linear_;
 };

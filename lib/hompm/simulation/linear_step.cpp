@@ -28,7 +28,7 @@ LinearStep::LinearStep(const Scene& scene)
   simulation_.state().kick = simulation_.state().drift = 1.0;  // the map is linear in both
 }
 
-void LinearStep::linearise(const State& state) { take(state, 1.0, 0.0); }
+void LinearStep::linearise(const State& state) { take(state, state.left_boundary, state.right_boundary); }
 
 void LinearStep::linearise_with_cut(const State& state, double cut) {
   const double h = state.grid.cell_width();
@@ -37,21 +37,25 @@ void LinearStep::linearise_with_cut(const State& state, double cut) {
   const double left = state.left_boundary, right = state.right_boundary;
   const double to_left = state.ends.left == End::free ? nearest(left) - cut * h : left;
   const double to_right = state.ends.right == End::free ? nearest(right) + cut * h : right;
-  const double stretch = (to_right - to_left) / (right - left);
-  take(state, stretch, to_left - stretch * left);
+  take(state, to_left, to_right);
 }
 
-void LinearStep::take(const State& at, double stretch, double shift) {
+void LinearStep::take(const State& at, double left, double right) {
+  const double stretch = (right - left) / (at.right_boundary - at.left_boundary);
+  const double shift = left - stretch * at.left_boundary;
+  const double grid_left = at.grid.origin();
+  const double grid_right = at.grid.breakpoint(at.grid.cells());
   State& state = simulation_.state();
   Particles& p = state.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    p.position[i] = stretch * at.particles.position[i] + shift;
+    // Where an end stays, rounding must not carry it out of the grid.
+    p.position[i] = std::clamp(stretch * at.particles.position[i] + shift, grid_left, grid_right);
     p.volume[i] = stretch * at.particles.volume[i];
     p.mass[i] = stretch * at.particles.mass[i];
     p.reference_density[i] = at.density(i);
   }
-  state.left_boundary = stretch * at.left_boundary + shift;
-  state.right_boundary = stretch * at.right_boundary + shift;
+  state.left_boundary = left;
+  state.right_boundary = right;
   std::visit(
       [&](const auto& law) {
         for (std::size_t i = 0; i < p.size(); ++i) {

@@ -33,7 +33,8 @@ class LinearStep {
   void apply(const std::vector<double>& stress, std::vector<double>& result);
 
  private:
-  void take(const State& state, double stretch, double shift);
+  /// The configuration, stretched so that the body reaches from `left` to `right`.
+  void take(const State& state, double left, double right);
 
   bool from_positions_;
   Material material_;
