@@ -140,6 +140,21 @@ set key outside right samplen 2
 plot """ + ", \\\n     ".join(plots) + "\n"
 
 
+def long_run(tools):
+    """Energy over a thousand periods of the small bar."""
+    script = START.format(size="920,420", name="long-run") + 'set multiplot layout 1,2 title "Energy over a thousand periods, 16 cells, half the critical step" font ",17"\n'
+    script += 'set xlabel "t, s"\nset xrange [0:5000]\nset xtics 1000\n'
+    for law, top in (("linear", 1.2), ("rate", 9)):
+        plots = []
+        for scheme, (colour, _) in STYLES.items():
+            name = f"{law}_{scheme}".replace("-", "_")
+            script += block(name, [[f"{time:.0f}", f"{energy:.4f}"] for time, energy in make_tables.long_bar(tools, scheme, law)[::2]])
+            plots.append(f'${name} using 1:2 with lines linewidth 1.5 linecolor "{colour}" title "{scheme}"')
+        script += f'set title "law {law}"\nset ylabel "{"energy over that at the start" if law == "linear" else ""}"\nset yrange [{0.8 if law == "linear" else 0}:{top}]\n'
+        script += ("set key left top Left reverse samplen 2\n" if law == "rate" else "unset key\n") + "plot " + ", \\\n     ".join(plots) + "\n"
+    return script + "unset multiplot\n"
+
+
 def comparing(tools):
     """What hompm-diff --picture draws, here of golden data of two schemes."""
     golden = make_tables.ROOT / "golden"
@@ -162,7 +177,7 @@ def main():
     stale = []
     with tempfile.TemporaryDirectory() as work:
         tools = make_tables.Tools(arguments.tool.resolve(), work)
-        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("limit-cut", limit_cut), ("comparing", comparing)):
+        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("limit-cut", limit_cut), ("long-run", long_run), ("comparing", comparing)):
             subprocess.run(["gnuplot"], input=draw(tools), text=True, check=True, cwd=work)
             new = (pathlib.Path(work) / f"{name}.svg").read_text()
             path = PICTURES / f"{name}.svg"

@@ -291,6 +291,26 @@ def limit_cut(tools):
     return table(["scheme", "p", *(f"ε = {cut}" for cut in cuts)], rows, range(1, 2 + len(cuts) + 1))
 
 
+LAWS = {"linear": ["--set", "material.law=linear", "--set", "kinematics=infinitesimal"], "rate": []}
+
+
+def long_bar(tools, scheme, law):
+    """[(t, energy over that at the start)] of a thousand periods of the small bar."""
+    _, folder = tools.report("--case", "bar", "--variant", "small", *LAWS[law], "--scheme", scheme, "--cells", 16, "--step-fraction", "0.5",
+                             "--end-time", "5000", "--set", "rest.speed=1e-12", "--set", "output.history=499", "--snapshots", "1")
+    with open(folder / "history.csv", newline="", encoding="ascii") as file:
+        rows = [(float(row["time"]), float(row["kinetic"]) + float(row["stored"])) for row in csv.DictReader(file)]
+    return [(time, energy / rows[0][1]) for time, energy in rows]
+
+
+def long_bars(tools):
+    rows = []
+    for scheme in SCHEMES:
+        energies = {law: [energy for _, energy in long_bar(tools, scheme, law)] for law in LAWS}
+        rows.append([f"`{scheme}`", *(f"{number:.3f}" for law in LAWS for number in (min(energies[law]), max(energies[law]), energies[law][-1]))])
+    return table(["scheme", *(f"`{law}`: {word}" for law in LAWS for word in ("least", "largest", "last"))], rows, range(1, 7))
+
+
 # From the ground up.
 ROOMS = {
     "numerics": "mathematics without mechanics: spline space, interpolating splines, Gauss rules, band solver, rounded elementary functions",
@@ -377,7 +397,7 @@ def examples(_tools):
 
 PARTS = {
     "schemes": schemes, "choices": choices, "cases": cases, "plan": plan, "output": output, "limits": limits, "limits-p1": limits_p1,
-    "limit-map": limit_map, "limit-cut": limit_cut,
+    "limit-map": limit_map, "long-bars": long_bars, "limit-cut": limit_cut,
     "rooms": rooms, "examples": examples,
     "effect-file": source("lib/hompm/effects/mass_damping.cpp", "cpp"),
     "effect-line": source("lib/hompm/effects/catalogue.cmake", "cmake", "  mass_damping", "  mass_damping"),

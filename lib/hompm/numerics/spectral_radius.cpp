@@ -54,6 +54,13 @@ double largest_modulus(Rows a) {
   return radius;
 }
 
+/// The largest real part of the eigenvalues of a small matrix of spectral radius `radius`: far enough to the
+/// right it is the largest modulus.
+double rightmost(Rows a, double radius) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i][i] += 4.0 * radius;
+  return largest_modulus(a) - 4.0 * radius;
+}
+
 }  // namespace
 
 SpectralRadius spectral_radius(std::size_t size, const std::function<void(const Vector& x, Vector& y)>& apply,
@@ -72,6 +79,7 @@ SpectralRadius spectral_radius(std::size_t size, const std::function<void(const 
     const double scale = k == 0 ? 0.0 : std::abs(projected[k - 1][k - 1]);
     if (!(length > 1e-12 * scale)) {
       result.value = largest_modulus(projected);
+      result.rightmost = rightmost(projected, result.value);
       result.converged = true;
       return result;
     }
@@ -91,7 +99,10 @@ SpectralRadius spectral_radius(std::size_t size, const std::function<void(const 
       result.value = largest_modulus(projected);
       settled = std::abs(result.value - before) <= tolerance / 3.0 * result.value ? settled + 1 : 0;
       result.converged = settled == 2;
-      if (result.converged || result.rounds >= most) return result;
+      if (result.converged || result.rounds >= most) {
+        result.rightmost = rightmost(projected, result.value);
+        return result;
+      }
     }
     basis.push_back(next);
   }

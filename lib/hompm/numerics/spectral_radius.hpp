@@ -9,7 +9,8 @@ namespace hompm::numerics {
 
 /// What of a spectrum was found by `rounds` products with the map.
 struct SpectralRadius {
-  double value = 0.0;  ///< |λ|max
+  double value = 0.0;      ///< |λ|max
+  double rightmost = 0.0;  ///< the largest real part, to a hundredth of `value`
   int rounds = 0;
   bool converged = false;
 };

@@ -81,6 +81,12 @@ double CriticalStep::of_linearised() {
   const auto radius = numerics::spectral_radius(
       linear_.size(), [&](const auto& stress, auto& result) { linear_.apply(stress, result); }, tolerance,
       most_rounds);
+  // A mode that is pushed away from rest grows with every step.
+  constexpr double pushed = 0.05;
+  if (radius.rightmost > pushed * radius.value)
+    throw InvalidRun(0, 0.0, -1,
+                     "no step is stable: the forces drive some motions instead of holding them back; "
+                     "use more particles per cell");
   // A force that grows by the factor acts as a stiffness that does.
   const double omega2 = radius.value * force_factor_;
   // v' = v − Δt (ω² σ + 2 b v), σ' = σ + Δt v' is stable up to Δt² ω² + 4 Δt b = 4 (docs/stability.md).
@@ -96,21 +102,24 @@ bool moving_free_end(const Scene& scene) {
 }
 
 double critical_time_step(const Scene& scene) {
+  const auto or_refused = [&](const std::string& what, auto limit) {
+    try {
+      return limit();
+    } catch (const InvalidRun& error) {
+      const auto said = scene.origins.find("scheme.particles_per_cell");
+      throw SceneError(said == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : said->second,
+                       what + error.reason);
+    }
+  };
   CriticalStep whole(scene);
-  double least = whole.at_start();
+  double least = or_refused("the scene cannot be started: ", [&] { return whole.at_start(); });
   if (!moving_free_end(scene)) return least;
 
   CriticalStep ends(ends_of(scene));
   const double spacing = 1.0 / scene.scheme.particles_per_cell;
-  for (const double cut : {1e-6, 0.5 * spacing + 0.02, 1.5 * spacing + 0.02}) {
-    try {
-      least = std::min(least, ends.with_cut(cut - std::floor(cut)));
-    } catch (const InvalidRun& error) {
-      const auto said = scene.origins.find("scheme.particles_per_cell");
-      throw SceneError(said == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : said->second,
-                       "a free end cannot move through the grid: " + error.reason);
-    }
-  }
+  for (const double cut : {1e-6, 0.5 * spacing + 0.02, 1.5 * spacing + 0.02})
+    least = std::min(least, or_refused("a free end cannot move through the grid: ",
+                                       [&] { return ends.with_cut(cut - std::floor(cut)); }));
   return least;
 }
 
