@@ -120,6 +120,7 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
 }
 
 std::string critical_step_text(const hompm::Scene& scene) {
+  const double limit = hompm::critical_time_step(scene);
   const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
   const double cell = scene.body.length / scene.scheme.cells;
   std::string text;
@@ -137,7 +138,7 @@ std::string critical_step_text(const hompm::Scene& scene) {
   if (moving_free_end(scene))
     for (const double cut : {1e-6, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
       add("free end " + to_text(cut) + " cells beyond a breakpoint", critical.with_cut(cut));
-  add("refused above", hompm::critical_time_step(scene));
+  add("refused above", limit);
   return text;
 }
 

@@ -269,7 +269,7 @@ def limit_map(tools):
     rows = []
     for row in scheme_rows():
         for degree in range(int(row["lowest_degree"]), int(row["highest_degree"]) + 1):
-            fewest = 2 if row["name"] == "high-order" and degree > 2 else 1
+            fewest = 2 if row["name"] in ("tielen2017", "high-order") and degree > 2 else 1
             limits = [f"{courant_limit(tools, row['name'], degree, count, 'fixed'):.2f}" if count >= fewest else "–" for count in counts]
             rows.append([f"`{row['name']}`", degree, *limits])
     return table(["scheme", "p", *counts], rows, range(1, 8))

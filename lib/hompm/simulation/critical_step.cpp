@@ -50,6 +50,7 @@ Scene ends_of(const Scene& scene) {
   ends.body.length = scene.body.length * cells / scene.scheme.cells;
   ends.scheme.cells = cells;
   ends.scheme.margin_cells = scene.scheme.degree + 2;
+  ends.grid = {};
   return ends;
 }
 
