@@ -37,7 +37,7 @@ double viscous_time(const Scene& scene) {
 double force_factor(const Scene& scene) {
   double product = 1.0;
   for (const EffectSpec& spec : scene.effects)
-    if (const auto factor = find_effect(spec).force_factor; factor != nullptr) product *= factor(spec);
+    if (const auto factor = find_effect(scene, spec).force_factor; factor != nullptr) product *= factor(spec);
   return product;
 }
 
