@@ -15,7 +15,7 @@ constexpr std::array own_of_scheme{"cells", "particles_per_cell", "margin_cells"
 constexpr std::array own_tables{"material", "initial", "ends", "grid"};
 
 /// Where in a scene of one body the key of a body stands.
-std::string place(const std::string& key) {
+std::string place_of_key(const std::string& key) {
   const std::string first = key.substr(0, key.find('.'));
   if (std::ranges::find(own_of_scheme, first) != own_of_scheme.end()) return "scheme." + key;
   if (std::ranges::find(own_tables, first) != own_tables.end()) return key;
@@ -48,7 +48,7 @@ std::vector<Said> said_of_bodies(Reading& reading) {
     for (const auto& [path, value] : values) {
       if (path == own) said.values["body"] = value;
       if (!path.starts_with(own + '.')) continue;
-      const std::string to = place(path.substr(own.size() + 1));
+      const std::string to = place_of_key(path.substr(own.size() + 1));
       SaidValue moved = value;
       moved.parent = parent_path(to);
       said.values[to] = std::move(moved);

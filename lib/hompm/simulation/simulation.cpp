@@ -98,7 +98,8 @@ double Simulation::closing_kick() const {
 }
 
 void Simulation::run(Phase phase, std::vector<State>& states) const {
-  for (std::size_t body = 0; body < states.size(); ++body) plans_[body].run(phase, states[body]);
+  const Plan* plan = plans_.data();
+  for (State& state : states) (plan++)->run(phase, state);
   for (const Coupling& coupling : couplings_)
     if (coupling.phase == phase) coupling.run(states[coupling.left], states[coupling.left + 1]);
 }
