@@ -84,21 +84,6 @@ def ladder(tools):
     return table(["change", "what it buys", "bar: u", "bar: v", "bar: σ", "column: u", "column: σ", "c Δt/h"], rows, range(2, 8))
 
 
-def costs(tools):
-    """Instructions per particle and step on each rung, by callgrind: the difference of two runs of the bar."""
-    def count(rung, steps):
-        options = on_rung(tools, "bar", rung)
-        options[options.index("--time-step") + 1], options[options.index("--end-time") + 1] = "1e-5", repr(steps * 1e-5)
-        folder = tempfile.mkdtemp(dir=tools.work)
-        done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/callgrind.out", tools.run_tool, *options,
-                               "--set", "output.history=1", "--snapshots", "1", "--no-vtk", "--quiet", "--output", folder],
-                              capture_output=True, text=True, check=True, cwd=tools.work)
-        return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
-
-    rows = [[rung_name(rung), f"{(count(rung, 60) - count(rung, 10)) / 50 / 256:.0f}"] for rung in range(len(LADDER))]
-    return table(["change", "instructions"], rows, [1])
-
-
 def orders(errors):
     """Each error, and the order since the one before; words stand for runs without an error."""
     words = []
@@ -202,4 +187,4 @@ def cut_spans(_tools):
 
 PARTS = {"ladder": ladder, "settled": settled, "squeezed": lambda tools: settled(tools, 2452.5, 0.3, (2, 3)),
          "ramped": ramped, "conservation": conservation, "cut-span": cut_spans}
-SLOW_PARTS = {"costs": costs, "flip": flip, "long-runs": long_runs}
+SLOW_PARTS = {"flip": flip, "long-runs": long_runs}

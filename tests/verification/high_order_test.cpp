@@ -157,6 +157,7 @@ TEST_CASE("high-order: the settled column, base compressed to half") {
   };
   check("2", "2",
         {{"8", 1.1e-4, 2.6e-3}, {"16", 6.8e-6, 4.4e-4}, {"32", 9.2e-7, 1.1e-4}, {"64", 1.5e-7, 3.8e-5}});
+  check("2", "4", {{"32", 1e-6, 1.2e-4}});
   check("3", "4",
         {{"8", 2.0e-6, 5.0e-5}, {"16", 6.7e-8, 4.3e-6}, {"32", 5.3e-9, 7.7e-7}, {"64", 1.8e-9, 1.8e-7}});
   // Orders 4.9 and 6.0 and more, to rounding.
