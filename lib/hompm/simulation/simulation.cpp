@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include <hompm/effects/registry.hpp>
@@ -10,9 +11,12 @@
 namespace hompm {
 namespace {
 
-constexpr std::array force_phases{Phase::end_stress, Phase::internal_force, Phase::external_force,
-                                  Phase::damping_force, Phase::acceleration};
-constexpr std::array motion_phases{Phase::velocity, Phase::constraint, Phase::work, Phase::motion};
+constexpr std::array phases_after_geometry{Phase::end_stress,    Phase::internal_force, Phase::external_force,
+                                           Phase::damping_force, Phase::acceleration,   Phase::velocity,
+                                           Phase::constraint,    Phase::work,           Phase::motion};
+constexpr auto force_phases = std::span(phases_after_geometry).first<5>();
+constexpr auto projection_phases = std::span(phases_after_geometry).subspan<5, 2>();
+constexpr std::array start_phases{Phase::geometry, Phase::end_stress, Phase::internal_force, Phase::velocity};
 
 void check_particle_count(const SchemeSpec& scheme) {
   const SchemeChoices& c = scheme.choices;
@@ -80,8 +84,7 @@ Simulation::Simulation(const Scene& scene, double time_step)
   for (PlanBuilder& builder : builders) plans_.push_back(std::move(builder.plan));
   for (State& state : states_) state.time_step = time_step;
   try {
-    for (const Phase phase : {Phase::geometry, Phase::end_stress, Phase::internal_force, Phase::velocity})
-      run(phase, states_);
+    run(start_phases, states_);
   } catch (const InvalidRun& error) {
     const auto origin = scene.origins.find("scheme.particles_per_cell");
     throw SceneError(origin == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : origin->second,
@@ -97,36 +100,41 @@ double Simulation::closing_kick() const {
   return splitting_.kicks.size() > splitting_.drifts.size() ? splitting_.kicks.back() : 0.0;
 }
 
-void Simulation::run(Phase phase, std::vector<State>& states) const {
-  const Plan* plan = plans_.data();
-  for (State& state : states) (plan++)->run(phase, state);
-  for (const Coupling& coupling : couplings_)
-    if (coupling.phase == phase) coupling.run(states[coupling.left], states[coupling.left + 1]);
+void Simulation::run(std::span<const Phase> phases, std::vector<State>& states) const {
+  for (const Phase phase : phases) {
+    const Plan* plan = plans_.data();
+    for (State& state : states) (plan++)->run(phase, state);
+    for (const Coupling& coupling : couplings_)
+      if (coupling.phase == phase) coupling.run(states[coupling.left], states[coupling.left + 1]);
+  }
 }
 
 void Simulation::run_geometry(std::vector<State>& states) const {
-  for (std::size_t body = 0; body < states.size(); ++body)
-    if (states[body].moves) plans_[body].run(Phase::geometry, states[body]);
+  const Plan* plan = plans_.data();
+  for (State& state : states) {
+    if (state.moves) plan->run(Phase::geometry, state);
+    ++plan;
+  }
 }
 
 void Simulation::step() {
+  const std::int64_t step = states_.front().step + 1;
+  const double time_step = states_.front().time_step;
+  const double start = static_cast<double>(step - 1) * time_step;
+  double left_from_last_step = step == 1 ? 0.0 : closing_kick();
   double drifted = 0.0;
   for (std::size_t part = 0; part < splitting_.drifts.size(); ++part) {
-    bool start_of_run = false;
     for (State& state : states_) {
-      if (part == 0) ++state.step;
-      state.time = static_cast<double>(state.step) * state.time_step;
-      const double start = static_cast<double>(state.step - 1) * state.time_step;
-      start_of_run = state.step == 1 && part == 0;
-      const double left_from_last_step = part == 0 && !start_of_run ? closing_kick() : 0.0;
-      state.kick = (left_from_last_step + splitting_.kicks[part]) * state.time_step;
-      state.drift = splitting_.drifts[part] * state.time_step;
-      state.position_time = start + drifted * state.time_step;
+      state.step = step;
+      state.time = static_cast<double>(step) * time_step;
+      state.kick = (left_from_last_step + splitting_.kicks[part]) * time_step;
+      state.drift = splitting_.drifts[part] * time_step;
+      state.position_time = start + drifted * time_step;
     }
+    left_from_last_step = 0.0;
     drifted += splitting_.drifts[part];
-    if (!start_of_run) run_geometry(states_);
-    for (const Phase phase : force_phases) run(phase, states_);
-    for (const Phase phase : motion_phases) run(phase, states_);
+    if (step > 1 || part > 0) run_geometry(states_);
+    run(phases_after_geometry, states_);
   }
 }
 
@@ -139,11 +147,10 @@ std::vector<State> Simulation::synchronised() const {
     state.position_time = state.time;
   }
   run_geometry(states);
-  for (const Phase phase : force_phases) run(phase, states);
+  run(force_phases, states);
   const bool held =
       std::ranges::any_of(plans_, [](const Plan& plan) { return !plan[Phase::constraint].empty(); });
-  if (held || !couplings_.empty())
-    for (const Phase phase : {Phase::velocity, Phase::constraint}) run(phase, states);
+  if (held || !couplings_.empty()) run(projection_phases, states);
   return states;
 }
 

@@ -42,8 +42,8 @@ class Simulation {
   [[nodiscard]] double closing_kick() const;
   /// The states with that kick done: velocities and momentum at the time of the positions.
   [[nodiscard]] std::vector<State> synchronised() const;
-  /// The stages of a phase, body by body, then what couples them.
-  void run(Phase phase, std::vector<State>& states) const;
+  /// The stages of each phase, body by body, then what couples them.
+  void run(std::span<const Phase> phases, std::vector<State>& states) const;
   void run_geometry(std::vector<State>& states) const;
 
   Splitting splitting_;
