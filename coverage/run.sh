@@ -12,7 +12,7 @@ rm -rf build/coverage/profiles
 unfit="no room for checkpoints|instructions repeat|counted steps|one worker, with two"
 # The others run the same code, only longer. Programs that run at the same time share four files of counts.
 LLVM_PROFILE_FILE="$PWD/build/coverage/profiles/%4m.profraw" \
-  ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|docs|cost|reproducibility" -E "$unfit"
+  ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|stability|docs|cost|reproducibility" -E "$unfit"
 
 cd build/coverage
 llvm-profdata merge -sparse profiles/*.profraw -o tests.profdata

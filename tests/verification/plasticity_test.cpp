@@ -13,7 +13,6 @@ namespace {
 
 constexpr double elastic_speed = 10.0;  // √(E/ρ)
 constexpr double plastic_speed = 5.0;   // √(E_t/ρ), E_t = E/4
-constexpr double impedance = 1000.0 * elastic_speed;
 constexpr double yield = 100.0;
 
 std::string text(const std::string& scheme, const std::string& load, double end_time) {
