@@ -239,3 +239,12 @@ TEST_CASE("with --check it runs a golden scene and compares: 0 identical, 3 diff
   CHECK_THAT(different.out, contains("different") && contains("stress.csv"));
   CHECK_THAT(run_command(check + " --quiet").err, contains("different"));
 }
+
+TEST_CASE("the VTU of several bodies says which particle is whose") {
+  const TemporaryFolder scratch;
+  REQUIRE(run_command(tool + " --scene " HOMPM_SOURCE_DIR "/docs/scenes/contact.toml --quiet --output " +
+                      quoted(scratch / "out"))
+              .exit_code == 0);
+  for (const auto& entry : fs::recursive_directory_iterator(scratch / "out"))
+    if (entry.path().extension() == ".vtu") CHECK_THAT(read_file(entry.path()), contains("Name=\"body\""));
+}

@@ -263,3 +263,14 @@ TEST_CASE("without valgrind the axis is left empty, and said so once") {
   CHECK_THAT(done.err, contains("gnuplot is not there"));
   CHECK_THAT(done.out, contains("particle steps"));
 }
+
+TEST_CASE("a scene of several bodies cannot be studied, and every point says so") {
+  const TemporaryFolder folder;
+  const auto done = run_command(tool +
+                                " --scene " HOMPM_SOURCE_DIR
+                                "/docs/scenes/contact.toml --vary cells=8,16 "
+                                "--repeats 0 --no-instructions --output " +
+                                quoted(folder / "out"));
+  CHECK_THAT(done.out, contains("2 of 2 points: refused"));
+  CHECK_THAT(read_file(folder / "out/points/cells=8.json"), contains("a study measures scenes of one body"));
+}
