@@ -113,4 +113,16 @@ void BodyEnd::push(State& state, double impulse) const {
   state.balance.impulse += impulse * (1.0 + reaction_);
 }
 
+void EndPair::find(const State& left, const State& right) {
+  a_.find(left);
+  b_.find(right);
+}
+
+double EndPair::slow_down(State& left, State& right, double change) const {
+  const double impulse = change / (a_.compliance() + b_.compliance());
+  a_.push(left, -impulse);
+  b_.push(right, impulse);
+  return a_.work(-impulse) + b_.work(impulse);
+}
+
 }  // namespace hompm::detail

@@ -87,4 +87,26 @@ class BodyEnd {
   double velocity_before_ = 0.0;
 };
 
+/// Two ends that face each other: the right one of a body, the left one of the next.
+class EndPair {
+ public:
+  explicit EndPair(const PairBuilder& pair) : a_(pair.left, Side::right), b_(pair.right, Side::left) {}
+
+  /// Between the ends, m.
+  [[nodiscard]] double gap(const State& left, const State& right) const {
+    return b_.position(right) - a_.position(left);
+  }
+
+  /// As of `BodyEnd`, for both.
+  void find(const State& left, const State& right);
+  /// At which the gap closes, m/s.
+  [[nodiscard]] double closing_velocity() const { return a_.velocity() - b_.velocity(); }
+
+  /// Takes `change` (m/s) off the closing velocity by an impulse on both, and returns its work (J/m²).
+  double slow_down(State& left, State& right, double change) const;
+
+ private:
+  BodyEnd a_, b_;
+};
+
 }  // namespace hompm::detail

@@ -1,4 +1,5 @@
 #include <limits>
+#include <memory>
 
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
@@ -27,22 +28,22 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   const double n = outward(side);
   const double position = spec.number("position");
   check_position(spec, builder.state, side, position);
-  BodyEnd at(builder, side);
-  const auto gap = [n, position, at](const State& state) { return n * (position - at.position(state)); };
+  const auto end = std::make_shared<BodyEnd>(builder, side);
+  const auto gap = [=](const State& state) { return n * (position - end->position(state)); };
   if (builder.wants_end_stress)
     builder.add(Phase::end_stress, "wall: a marker in contact carries its own stress",
-                [side, gap](State& state) { carry_contact_stress(state, side, gap(state)); });
+                [=](State& state) { carry_contact_stress(state, side, gap(state)); });
   builder.add(
       Phase::constraint, "wall",
-      [n, position, end = at](State& state) mutable {
-        const double most = approach_limit(state, n * (position - end.position(state)));
+      [=](State& state) {
+        const double most = approach_limit(state, gap(state));
         if (most == std::numeric_limits<double>::infinity()) return;
-        end.find(state);
-        const double excess = n * end.velocity() - most;
+        end->find(state);
+        const double excess = n * end->velocity() - most;
         if (!(excess > 0.0)) return;
-        const double impulse = -n * excess / end.compliance();
-        end.push(state, impulse);
-        state.balance.dissipated -= end.work(impulse);
+        const double impulse = -n * excess / end->compliance();
+        end->push(state, impulse);
+        state.balance.dissipated -= end->work(impulse);
       },
       BodyEnd::arrays);
 }
