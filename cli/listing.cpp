@@ -133,11 +133,12 @@ std::string critical_step_text(const hompm::Scene& scene) {
   text += scene.scheme.name + ", p = " + std::to_string(scene.scheme.degree) + ", " +
           std::to_string(scene.scheme.particles_per_cell) +
           " particles per cell                 step, s   c dt/h\n";
+  const hompm::State start = hompm::Simulation(scene, 1.0).state();
   hompm::CriticalStep critical(scene);
-  add("at the start", critical.at_start());
+  add("at the start", critical.at(start));
   if (moving_free_end(scene))
     for (const double cut : {1e-6, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
-      add("free end " + to_text(cut) + " cells beyond a breakpoint", critical.with_cut(cut));
+      add("free end " + to_text(cut) + " cells beyond a breakpoint", critical.with_cut(start, cut));
   add("refused above", limit);
   return text;
 }

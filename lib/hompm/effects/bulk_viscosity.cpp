@@ -25,10 +25,11 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
 }
 
 /// A jump over a cell is at most the speed at the start, as far as the scene says it.
-double relaxation(const EffectSpec& spec, const Scene& scene) {
+SmallMotion small_motion(const EffectSpec& spec, const Scene& scene) {
   const double c = wave_speed(scene);
   const double jump = scene.initial_velocity ? std::abs(scene.initial_velocity->amplitude) : 0.0;
-  return (spec.number("linear") + spec.number("quadratic") * jump / c) * cell_width(scene) / c;
+  return {.viscous_time =
+              (spec.number("linear") + spec.number("quadratic") * jump / c) * cell_width(scene) / c};
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ EffectType bulk_viscosity() {
                           .default_value = 0.5}},
           .join = join,
           .conflict = needs_forward_kicks,
-          .viscous_time = relaxation};
+          .small_motion = small_motion};
 }
 
 }  // namespace hompm::detail

@@ -25,7 +25,9 @@ EffectType local_damping() {
           .parameters =
               {{.name = "coefficient", .unit = "-", .meaning = "fraction", .minimum = 0.0, .maximum = 0.99}},
           .join = join,
-          .force_factor = [](const EffectSpec& spec) { return 1.0 + spec.number("coefficient"); }};
+          .small_motion = [](const EffectSpec& spec, const Scene&) {
+            return SmallMotion{.force_factor = 1.0 + spec.number("coefficient")};
+          }};
 }
 
 }  // namespace hompm::detail

@@ -24,7 +24,9 @@ EffectType mass_damping() {
                           .meaning = "a mode of small amplitude decays with rate/2",
                           .minimum = 0.0}},
           .join = join,
-          .damping_rate = [](const EffectSpec& spec) { return spec.number("rate"); }};
+          .small_motion = [](const EffectSpec& spec, const Scene&) {
+            return SmallMotion{.damping_rate = spec.number("rate")};
+          }};
 }
 
 }  // namespace hompm::detail

@@ -27,24 +27,16 @@ void prepare_effects(const Scene& scene, State& state) {
       prepare(spec, scene, state);
 }
 
-double viscous_time(const Scene& scene) {
-  double sum = 0.0;
-  for (const EffectSpec& spec : scene.effects)
-    if (const auto time = find_effect(scene, spec).viscous_time; time != nullptr) sum += time(spec, scene);
-  return sum;
-}
-
-double force_factor(const Scene& scene) {
-  double product = 1.0;
-  for (const EffectSpec& spec : scene.effects)
-    if (const auto factor = find_effect(scene, spec).force_factor; factor != nullptr) product *= factor(spec);
-  return product;
-}
-
-double damping_rate(const Scene& scene) {
-  double sum = 0.0;
-  for (const EffectSpec& spec : scene.effects)
-    if (const auto rate = find_effect(scene, spec).damping_rate; rate != nullptr) sum += rate(spec);
+SmallMotion small_motion(const Scene& scene) {
+  SmallMotion sum;
+  for (const EffectSpec& spec : scene.effects) {
+    const auto of_effect = find_effect(scene, spec).small_motion;
+    if (of_effect == nullptr) continue;
+    const SmallMotion own = of_effect(spec, scene);
+    sum.viscous_time += own.viscous_time;
+    sum.damping_rate += own.damping_rate;
+    sum.force_factor *= own.force_factor;
+  }
   return sum;
 }
 

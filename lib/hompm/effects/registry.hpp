@@ -29,6 +29,13 @@ struct EffectParameter {
   std::optional<EffectSpec::Value> default_value = {};  ///< none: the parameter must be given
 };
 
+/// What effects do to small motions.
+struct SmallMotion {
+  double viscous_time = 0.0;  ///< τ, s, of the stress E τ ∂v/∂x
+  double damping_rate = 0.0;  ///< β, 1/s, of the body force −β v
+  double force_factor = 1.0;  ///< by which the force out of balance may grow
+};
+
 /// One row of the catalogue.
 struct EffectType {
   std::string name;
@@ -38,14 +45,10 @@ struct EffectType {
   void (*join)(const EffectSpec& spec, PlanBuilder& plan);
   /// Why the effect does not go with the rest of the scene; "" where it does.
   std::string (*conflict)(const EffectSpec& spec, const Scene& scene) = nullptr;
-  /// τ (s) where the effect adds the stress E τ ∂v/∂x to a small motion: the critical step falls with it.
-  double (*viscous_time)(const EffectSpec& spec, const Scene& scene) = nullptr;
+  /// What the effect does to small motions, and so to the critical step; null: nothing.
+  SmallMotion (*small_motion)(const EffectSpec& spec, const Scene& scene) = nullptr;
   /// Changes the state at t = 0, before the plan is made: fields that only this effect needs, initial values.
   void (*prepare)(const EffectSpec& spec, const Scene& scene, State& state) = nullptr;
-  /// β (1/s) where the effect is the body force −β v, likewise.
-  double (*damping_rate)(const EffectSpec& spec) = nullptr;
-  /// The factor by which the effect may enlarge the force out of balance, likewise.
-  double (*force_factor)(const EffectSpec& spec) = nullptr;
   /// Decides how an end moves (its parameter `end`, which must be free): one such effect at each end, joined
   /// after all others.
   bool holds_end = false;
@@ -72,11 +75,7 @@ const EffectType& find_effect(const Scene& scene, const EffectSpec& spec);
 /// `EffectType::prepare` of all effects of the scene.
 void prepare_effects(const Scene& scene, State& state);
 
-/// What `viscous_time` of all effects of the scene comes to (s).
-double viscous_time(const Scene& scene);
-/// What `damping_rate` of all effects of the scene comes to (1/s).
-double damping_rate(const Scene& scene);
-/// The product of `force_factor` of all effects of the scene.
-double force_factor(const Scene& scene);
+/// What the `small_motion` of all effects of the scene comes to.
+SmallMotion small_motion(const Scene& scene);
 
 }  // namespace hompm

@@ -11,8 +11,8 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
       [eta = spec.number("viscosity")](const State&, std::size_t, double rate) { return eta * rate; });
 }
 
-double relaxation(const EffectSpec& spec, const Scene& scene) {
-  return spec.number("viscosity") / scene.material.youngs_modulus;
+SmallMotion small_motion(const EffectSpec& spec, const Scene& scene) {
+  return {.viscous_time = spec.number("viscosity") / scene.material.youngs_modulus};
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ EffectType viscosity() {
                           .minimum = 0.0}},
           .join = join,
           .conflict = needs_forward_kicks,
-          .viscous_time = relaxation};
+          .small_motion = small_motion};
 }
 
 }  // namespace hompm::detail

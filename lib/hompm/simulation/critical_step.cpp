@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/error.hpp>
 #include <hompm/numerics/spectral_radius.hpp>
 #include <hompm/scheme/scheme.hpp>
@@ -58,11 +56,8 @@ Scene ends_of(const Scene& scene) {
 
 CriticalStep::CriticalStep(const Scene& scene)
     : phase_(largest_stable_phase(splitting(scene.scheme.choices.time_integrator))),
-      viscous_time_(viscous_time(scene)),
-      damping_rate_(damping_rate(scene)),
+      effects_(small_motion(scene)),
       relaxation_rate_(scene.scheme.relaxation_rate),
-      force_factor_(force_factor(scene)),
-      start_(Simulation(scene, 1.0).state()),
       linear_(scene) {}
 
 double CriticalStep::at(const State& state) {
@@ -70,8 +65,8 @@ double CriticalStep::at(const State& state) {
   return of_linearised();
 }
 
-double CriticalStep::with_cut(double cut) {
-  linear_.linearise_with_cut(start_, cut);
+double CriticalStep::with_cut(const State& state, double cut) {
+  linear_.linearise_with_cut(state, cut);
   return of_linearised();
 }
 
@@ -89,9 +84,9 @@ double CriticalStep::of_linearised() {
                      "no step is stable: the forces drive some motions instead of holding them back; "
                      "use more particles per cell");
   // A force that grows by the factor acts as a stiffness that does.
-  const double omega2 = radius.value * force_factor_;
+  const double omega2 = radius.value * effects_.force_factor;
   // v' = v − Δt (ω² σ + 2 b v), σ' = σ + Δt v' is stable up to Δt² ω² + 4 Δt b = 4 (docs/stability.md).
-  const double b = 0.5 * (viscous_time_ * omega2 + damping_rate_);
+  const double b = 0.5 * (effects_.viscous_time * omega2 + effects_.damping_rate);
   const double limit = phase_ / (b + std::sqrt(b * b + omega2));
   // u += Δt/τ (û − u) turns the hidden part of u around at Δt = τ, and lets it grow from 2 τ on.
   return limit * relaxation_rate_ > 2.0 ? 2.0 / relaxation_rate_ : limit;
@@ -112,15 +107,17 @@ double critical_time_step(const Scene& scene) {
                        what + error.reason);
     }
   };
-  CriticalStep whole(scene);
-  double least = or_refused("the scene cannot be started: ", [&] { return whole.at_start(); });
+  const State start = Simulation(scene, 1.0).state();
+  double least = or_refused("the scene cannot be started: ", [&] { return CriticalStep(scene).at(start); });
   if (!moving_free_end(scene)) return least;
 
-  CriticalStep ends(ends_of(scene));
+  const Scene few_cells = ends_of(scene);
+  const State ends = Simulation(few_cells, 1.0).state();
+  CriticalStep critical(few_cells);
   const double spacing = 1.0 / scene.scheme.particles_per_cell;
   for (const double cut : {1e-6, 0.5 * spacing + 0.02, 1.5 * spacing + 0.02})
     least = std::min(least, or_refused("a free end cannot move through the grid: ",
-                                       [&] { return ends.with_cut(cut - std::floor(cut)); }));
+                                       [&] { return critical.with_cut(ends, cut - std::floor(cut)); }));
   return least;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/scene/scene.hpp>
 #include <hompm/simulation/linear_step.hpp>
 
@@ -21,20 +22,15 @@ class CriticalStep {
   /// In the configuration of `state`, a state of the scene (s). Throws `InvalidRun` where a step would.
   double at(const State& state);
 
-  double at_start() { return at(start_); }
-
-  /// At the start, with the free ends that move `cut` of a cell beyond a breakpoint each.
-  double with_cut(double cut);
+  /// The same, with the free ends that move `cut` of a cell beyond a breakpoint each.
+  double with_cut(const State& state, double cut);
 
  private:
   double of_linearised();
 
-  double phase_;         ///< the largest stable ω Δt
-  double viscous_time_;  ///< s, of the effects
-  double damping_rate_;  ///< 1/s
+  double phase_;  ///< the largest stable ω Δt
+  SmallMotion effects_;
   double relaxation_rate_;
-  double force_factor_;
-  State start_;
   LinearStep linear_;
 };
 

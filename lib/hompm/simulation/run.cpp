@@ -100,6 +100,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
               const RunPoint* from) {
   numerics::check_floating_point();
   Simulation simulation(scene, stepping.time_step);
+  detail::StepWatch step_watch(scene);
   RunResult result;
   result.start = result.end = simulation.history(0.0);
   if (from != nullptr) {
@@ -109,7 +110,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
   } else {
     accumulate(result, result.start);
     result.largest_step_fraction = stepping.time_step / stepping.critical_time_step;
-    result.largest_wave_speed = detail::fastest_wave(scene, simulation.states());
+    result.largest_wave_speed = step_watch.fastest_wave(simulation.states());
     if (observer.history) observer.history(result.start);
     if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
   }
@@ -123,7 +124,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
   for (std::int64_t step = simulation.state().step + 1; step <= stepping.steps && !result.at_rest; ++step) {
     simulation.step();
     result.steps = step;
-    detail::watch_step(scene, simulation.states(), result);
+    step_watch.look(simulation.states(), result);
     result.at_rest = rest && rest->at_rest(simulation.states());
     const bool last = step == stepping.steps || result.at_rest;
     const bool row_due = last || is_due(step, stepping.steps, scene.output.history);
