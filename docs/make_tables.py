@@ -20,6 +20,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import textwrap
 import tomllib
 
 sys.dont_write_bytecode = True
@@ -311,6 +312,26 @@ def long_bars(tools):
     return table(["scheme", *(f"`{law}`: {word}" for law in LAWS for word in ("least", "largest", "last"))], rows, range(1, 7))
 
 
+# What a guard watches, and a scene that it stops.
+GUARDS = {
+    "stretch": ["--case", "bar", "--set", "initial.velocity.amplitude=60", "--step-fraction", "0.9"],
+    "density": ["--case", "column", "--end-time", "3"],
+    "grid": ["--scene", str(ROOT / "docs/scenes/flight.toml"), "--set", "initial.velocity.amplitude=1000"],
+    "energy": ["--case", "bar", "--set", "material.law=linear", "--set", "kinematics=infinitesimal", "--step-fraction", "1.05",
+               "--set", "scheme.allow_unstable=true", "--end-time", "100"],
+    "mass": ["--case", "bar", "--scheme", "high-order", "--degree", "3", "--particles-per-cell", "1"],
+}
+
+
+def guards(tools):
+    """What hompm-run says, with the numbers as they come."""
+    lines = ["```text"]
+    for watched, options in GUARDS.items():
+        said = tools.complaint(*options, "--quiet", "--no-vtk").strip().removeprefix("hompm-run: ")
+        lines += [f"{watched}:", *textwrap.wrap(said, 130, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)]
+    return [*lines, "```"]
+
+
 # From the ground up.
 ROOMS = {
     "numerics": "mathematics without mechanics: spline space, interpolating splines, Gauss rules, band solver, rounded elementary functions",
@@ -405,7 +426,7 @@ PARTS = {
     "effect-test": source("tests/verification/effects_test.cpp", "cpp", "TEST_CASE(\"mass-proportional damping", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
     "outside-effect": source("tests/package/drag.cpp", "cpp"),
-    "mistake": mistake, "parting": parting,
+    "mistake": mistake, "guards": guards, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,

@@ -216,7 +216,7 @@ TEST_CASE("with one particle per cell a scene runs or is refused with what to ch
     } catch (const hompm::SceneError& error) {
       CHECK(reconstructs(name));
       CHECK(degree >= 3);
-      CHECK(contains(error.what(), "more particles per cell"));
+      CHECK(contains(error.what(), "raise scheme.particles_per_cell, or lower"));
     }
   }
 }

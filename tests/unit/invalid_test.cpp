@@ -1,10 +1,13 @@
 // Guards that no scene is known to reach: called by hand, they say what is wrong.
+#include <algorithm>
 #include <string>
 
 #include <hompm/error.hpp>
+#include <hompm/number.hpp>
 #include <hompm/numerics/interpolating_spline.hpp>
 #include <hompm/plan/invalid.hpp>
 #include <hompm/scheme/motion.hpp>
+#include <hompm/simulation/simulation.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"
@@ -13,14 +16,21 @@
 using hompm::test::free_body;
 using hompm::test::message_of;
 
-TEST_CASE("a singular mass matrix is told by its grid function") {
-  hompm::State state = hompm::initial_state(free_body());
+TEST_CASE("a singular mass matrix is told with the place and what to change") {
+  hompm::Simulation simulation(free_body(), 1e-3);  // degree 2, 16 cells of 4 particles in 0 … 1 m
+  hompm::State state = simulation.state();
   state.step = 7;
   state.time = 0.5;
-  const auto message = message_of<hompm::InvalidRun>([&] { hompm::detail::throw_singular_mass(state, 3); });
-  CHECK(message ==
-        "invalid at step 7, t = 0.5 s: the consistent mass matrix is singular at grid function 3; use more "
-        "particles per cell");
+  const std::size_t function = 8;
+  const auto message =
+      message_of<hompm::InvalidRun>([&] { hompm::detail::throw_singular_mass(state, function); });
+  const double from = state.grid.breakpoint(6), to = state.grid.breakpoint(9);
+  const auto inside = std::count_if(state.particles.position.begin(), state.particles.position.end(),
+                                    [&](double x) { return from <= x && x <= to; });
+  CHECK(message == "invalid at step 7, t = 0.5 s: the consistent mass is singular at grid function 8, x = " +
+                       hompm::to_text(from) + " ... " + hompm::to_text(to) + " m: " + std::to_string(inside) +
+                       " particles there do not determine it; raise scheme.particles_per_cell, or lower "
+                       "scheme.cells or scheme.degree");
 }
 
 TEST_CASE("stretches need reference positions in ascending order") {

@@ -58,7 +58,7 @@ TEST_CASE("particles that do not determine a velocity on the grid are refused be
       built_in("bar", "large", {{"scheme.name", "high-order"}, {"scheme.particles_per_cell", "1"}});
   CHECK_THROWS_AS(hompm::time_stepping(scene), hompm::SceneError);
   CHECK_THROWS_WITH(hompm::time_stepping(scene),
-                    contains("cannot be started") && contains("use more particles per cell"));
+                    contains("cannot be started") && contains("raise scheme.particles_per_cell"));
 }
 
 TEST_CASE("what a plan cannot be made of is refused") {

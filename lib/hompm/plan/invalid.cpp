@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -51,20 +52,37 @@ void throw_out_of_order(const State& state, std::size_t particle) {
   invalid(state, number(state, particle),
           "passed its left neighbour: at " + text(state.particles.position[particle]) +
               " m, the neighbour at " + text(state.particles.position[particle - 1]) +
-              " m; the reconstruction needs particles in order (step too large, or motion the grid cannot "
-              "resolve)");
+              " m; a step that is too large, or motion that the grid cannot resolve, are the usual causes");
+}
+
+void throw_not_finite(const State& state, std::size_t particle, const char* quantity) {
+  invalid(state, number(state, particle),
+          std::string(quantity) + " is not a finite number; a step that is too large is the usual cause");
 }
 
 void throw_negative_density(const State& state, double position, double density) {
-  invalid(state, -1,
+  const auto& x = state.particles.position;
+  const auto nearest = std::min_element(x.begin(), x.end(), [&](double a, double b) {
+    return std::abs(a - position) < std::abs(b - position);
+  });
+  invalid(state, number(state, static_cast<std::size_t>(nearest - x.begin())),
           "the density spline is not positive at x = " + text(position) + " m: " + text(density) +
               " kg/m^3; the front is too steep for the particles there, use more of them");
 }
 
 void throw_singular_mass(const State& state, std::size_t function) {
+  const int degree = state.grid.degree();
+  const auto f = static_cast<std::int32_t>(function);
+  const auto here = std::count_if(state.basis.first.begin(), state.basis.first.end(),
+                                  [&](std::int32_t first) { return first <= f && f <= first + degree; });
+  const auto end = [&](int breakpoint) {
+    return text(state.grid.breakpoint(std::clamp(breakpoint, 0, state.grid.cells())));
+  };
   invalid(state, -1,
-          "the consistent mass matrix is singular at grid function " + std::to_string(function) +
-              "; use more particles per cell");
+          "the consistent mass is singular at grid function " + std::to_string(function) +
+              ", x = " + end(f - degree) + " ... " + end(f + 1) + " m: " + std::to_string(here) +
+              " particles there do not determine it; raise scheme.particles_per_cell, or lower "
+              "scheme.cells or scheme.degree");
 }
 
 }  // namespace hompm::detail

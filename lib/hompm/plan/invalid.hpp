@@ -17,6 +17,7 @@ inline constexpr const char* raise_grid = "set grid.from and grid.to, or raise s
 [[noreturn]] void throw_boundary_left_grid(const State& state, double boundary);
 [[noreturn]] void throw_inverted(const State& state, std::size_t particle, double stretch);
 [[noreturn]] void throw_out_of_order(const State& state, std::size_t particle);
+[[noreturn]] void throw_not_finite(const State& state, std::size_t particle, const char* quantity);
 [[noreturn]] void throw_negative_density(const State& state, double position, double density);
 [[noreturn]] void throw_singular_mass(const State& state, std::size_t function);
 

@@ -82,7 +82,7 @@ double CriticalStep::of_linearised() {
   if (radius.rightmost > pushed * radius.value)
     throw InvalidRun(0, 0.0, -1,
                      "no step is stable: the forces drive some motions instead of holding them back; "
-                     "use more particles per cell");
+                     "raise scheme.particles_per_cell, or lower scheme.degree");
   // A force that grows by the factor acts as a stiffness that does.
   const double omega2 = radius.value * effects_.force_factor;
   // v' = v − Δt (ω² σ + 2 b v), σ' = σ + Δt v' is stable up to Δt² ω² + 4 Δt b = 4 (docs/stability.md).

@@ -5,6 +5,7 @@
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
+#include <hompm/simulation/guards.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/simulation/step_watch.hpp>
 
@@ -55,35 +56,13 @@ class RestWatch {
   std::int64_t quiet_steps_;
 };
 
-/// Energy beyond what the start and the loads supplied is made by an instability.
-class EnergyGuard {
- public:
-  EnergyGuard(const HistoryRow& start, const TimeStepping& stepping, double supplied)
-      : start_(start.kinetic + start.stored), supplied_(supplied), stepping_(stepping) {}
-
-  void check(const HistoryRow& row, std::int64_t step) {
-    supplied_ = std::max({supplied_, std::abs(row.gravity), std::abs(row.external_work)});
-    // What a load does in its first steps is booked with a velocity that it has yet to make.
-    constexpr std::int64_t first_steps = 4;
-    if (step < first_steps) return;
-    const double energy = row.kinetic + row.stored;
-    // Ten times leaves room for every error of a stable scheme; an unstable one passes it within a few dozen
-    // steps.
-    if (energy <= 10.0 * (start_ + supplied_)) return;
-    std::string reason = "unstable: energy " +
-                         (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
-                         " J/m^2, the start and the loads supplied " + to_text(start_ + supplied_);
-    reason += "; the time step is " + to_text(stepping_.time_step / stepping_.critical_time_step) +
-              " of the critical one";
-    throw InvalidRun(step, row.time, -1, reason);
-  }
-  [[nodiscard]] double supplied() const { return supplied_; }
-
- private:
-  double start_;
-  double supplied_;
-  TimeStepping stepping_;
-};
+/// The same, with the cause where the watch on the critical step knows it.
+[[noreturn]] void throw_with_cause(const InvalidRun& error, double step_fraction) {
+  if (!(step_fraction > 1.0)) throw error;
+  throw InvalidRun(
+      error.step, error.time, error.particle,
+      error.reason + "; here the time step is too large, " + to_text(step_fraction) + " of the critical one");
+}
 
 void accumulate(RunExtremes& result, const HistoryRow& row) {
   const auto raise = [](double& largest, double value) { largest = std::max(largest, std::abs(value)); };
@@ -115,34 +94,40 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
   }
 
-  EnergyGuard guard(result.start, stepping, from != nullptr ? from->supplied : 0.0);
+  detail::Guards guards(result.start, from != nullptr ? from->supplied : 0.0);
   std::optional<RestWatch> rest;
   if (scene.rest)
     rest.emplace(scene, stepping.time_step, simulation.states(), from != nullptr ? from->quiet_steps : 0);
   if (observer.start) observer.start(simulation);
 
-  for (std::int64_t step = simulation.state().step + 1; step <= stepping.steps && !result.at_rest; ++step) {
-    simulation.step();
-    result.steps = step;
-    step_watch.look(simulation.states(), result);
-    result.at_rest = rest && rest->at_rest(simulation.states());
-    const bool last = step == stepping.steps || result.at_rest;
-    const bool row_due = last || is_due(step, stepping.steps, scene.output.history);
-    const bool snapshot_due = last || is_due(step, stepping.steps, scene.output.snapshots);
-    if (row_due || snapshot_due) {
-      const double time = stepping.time(step, scene.end_time);
-      result.end = simulation.history(time);
-      guard.check(result.end, step);  // before anything is reported
-      accumulate(result, result.end);
-      if (row_due && observer.history) observer.history(result.end);
-      if (last) result.final = simulation.snapshot(time);
-      if (snapshot_due && observer.snapshot)
-        observer.snapshot(last ? result.final : simulation.snapshot(time));
+  try {
+    for (std::int64_t step = simulation.state().step + 1; step <= stepping.steps && !result.at_rest; ++step) {
+      simulation.step();
+      result.steps = step;
+      step_watch.look(simulation.states(), result);
+      guards.look(simulation);
+
+      result.at_rest = rest && rest->at_rest(simulation.states());
+      const bool last = step == stepping.steps || result.at_rest;
+      const bool row_due = last || is_due(step, stepping.steps, scene.output.history);
+      const bool snapshot_due = last || is_due(step, stepping.steps, scene.output.snapshots);
+      if (row_due || snapshot_due) {
+        const double time = stepping.time(step, scene.end_time);
+        result.end = simulation.history(time);
+        guards.check(simulation, result.end);  // before anything is reported
+        accumulate(result, result.end);
+        if (row_due && observer.history) observer.history(result.end);
+        if (last) result.final = simulation.snapshot(time);
+        if (snapshot_due && observer.snapshot)
+          observer.snapshot(last ? result.final : simulation.snapshot(time));
+      }
+      if (observer.progress) observer.progress(step, stepping.steps);
+      if (observer.checkpoint_every > 0 && step % observer.checkpoint_every == 0 && !last)
+        observer.checkpoint({simulation.states(), static_cast<const RunExtremes&>(result), guards.supplied(),
+                             rest ? rest->quiet_steps() : 0});
     }
-    if (observer.progress) observer.progress(step, stepping.steps);
-    if (observer.checkpoint_every > 0 && step % observer.checkpoint_every == 0 && !last)
-      observer.checkpoint({simulation.states(), static_cast<const RunExtremes&>(result), guard.supplied(),
-                           rest ? rest->quiet_steps() : 0});
+  } catch (const InvalidRun& error) {
+    throw_with_cause(error, result.largest_step_fraction);
   }
   return result;
 }

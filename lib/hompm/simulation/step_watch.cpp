@@ -25,7 +25,7 @@ double StepWatch::fastest_wave(const std::vector<State>& states) const {
 void StepWatch::look(const std::vector<State>& states, RunExtremes& extremes) {
   if (!moves_) return;
   constexpr std::int64_t between_looks = 64;
-  constexpr std::int64_t between_checks = 4096;  // a dozen rounds, each the cost of a step
+  constexpr std::int64_t between_checks = 8192;  // some dozen rounds, each the cost of a few steps
   constexpr double rise = 1.02;                  // of the wave speed, by which the critical step falls
   const std::int64_t step = states.front().step;
   if (step % between_looks != 0) return;

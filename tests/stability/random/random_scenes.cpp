@@ -1,10 +1,11 @@
 // Scenes drawn at random, each run twice: whatever a scene may say, it finishes, keeps its mass, closes its
 // energy balance, and gives the same bits again.
 //
-//     random_scenes [--seed FIRST] [--count N] [--show]
+//     random_scenes [--seed FIRST] [--count N] [--show] [--strain S --fraction F]
 //
 // A scene that fails is printed with its seed; `--seed SEED --count 1 --show` draws it again, and what it
-// prints is a scene file for hompm-run.
+// prints is a scene file for hompm-run. With --strain and --fraction all have that strain and that part of
+// the critical step.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -52,18 +53,23 @@ std::string line(const char* key, double value) {
   return std::string(key) + " = " + hompm::to_text(value) + "\n";
 }
 
-/// A scene as text. Strains of 1 % at 0.9 of the critical step, or of 5 % at half of it: the limit is that of
-/// a configuration, and where particles cross cells within a few large steps it can be passed. Up to two
+struct Pair {
+  double strain;
+  double step_fraction;
+};
+
+/// A scene as text, its strain and step of either pair: of 1 % at 0.9 of the critical step, or of 5 % at half
+/// of it: the limit is that of a configuration, and where particles cross cells within a few large steps it
+/// can be passed. Up to two
 /// waves' way through the body. Everything else is anything, but local damping with consistent mass: the
 /// damped part of the force then acts on all functions around, and the balance does not know
 /// (docs/stability.md).
-std::string draw(std::uint64_t seed) {
+std::string draw(std::uint64_t seed, const Pair& small, const Pair& large) {
   Random random(seed);
   const double length = std::pow(10.0, random.between(-2.0, 2.0));
   const double density = std::pow(10.0, random.between(0.0, 4.0));
   const double modulus = std::pow(10.0, random.between(2.0, 9.0));
-  const bool large = random.chance(0.5);
-  const double strain = large ? 0.05 : 0.01;
+  const auto [strain, step_fraction] = random.chance(0.5) ? large : small;
   const double c = std::sqrt(modulus / density);
   const double crossing = length / c;
   const char* law = random.one_of({"linear", "rate", "hencky", "neo-hookean"});
@@ -108,7 +114,7 @@ std::string draw(std::uint64_t seed) {
   text += "\n[scheme]\nname = \"" + scheme.name + "\"\ndegree = " + std::to_string(degree) +
           "\ncells = " + std::to_string(random.whole(2 * degree + 6, 32)) +
           "\nparticles_per_cell = " + std::to_string(random.whole(2, 6)) + "\n" +
-          line("step_fraction", large ? 0.5 : 0.9);
+          line("step_fraction", step_fraction);
   if (*integrator != '\0') text += "time_integrator = \"" + std::string(integrator) + "\"\n";
   text += "\n[output]\nsnapshots = 3\nhistory = 50\n";
   return text;
@@ -154,6 +160,7 @@ std::string fault(const std::string& text, double& open) {
 int main(int argc, char** argv) {
   std::uint64_t first = 1, count = 2000;
   bool show = false;
+  Pair small{0.01, 0.9}, large{0.05, 0.5};
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--show")
@@ -162,8 +169,13 @@ int main(int argc, char** argv) {
       first = std::strtoull(argv[++i], nullptr, 10);
     else if (option == "--count" && i + 1 < argc)
       count = std::strtoull(argv[++i], nullptr, 10);
+    else if (option == "--strain" && i + 1 < argc)
+      small.strain = large.strain = std::strtod(argv[++i], nullptr);
+    else if (option == "--fraction" && i + 1 < argc)
+      small.step_fraction = large.step_fraction = std::strtod(argv[++i], nullptr);
     else {
-      std::fprintf(stderr, "usage: random_scenes [--seed FIRST] [--count N] [--show]\n");
+      std::fprintf(stderr,
+                   "usage: random_scenes [--seed FIRST] [--count N] [--show] [--strain S --fraction F]\n");
       return 2;
     }
   }
@@ -171,7 +183,7 @@ int main(int argc, char** argv) {
   std::uint64_t done = 0, refused = 0, failed = 0;
   double widest = 0.0;
   for (std::uint64_t seed = first; done < count; ++seed) {
-    const std::string text = draw(seed);
+    const std::string text = draw(seed, small, large);
     if (show) std::printf("# seed %llu\n%s\n", static_cast<unsigned long long>(seed), text.c_str());
     double open = 0.0;
     const std::string wrong = fault(text, open);

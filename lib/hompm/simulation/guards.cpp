@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <hompm/error.hpp>
+#include <hompm/number.hpp>
+#include <hompm/plan/invalid.hpp>
+#include <hompm/simulation/guards.hpp>
+
+namespace hompm::detail {
+namespace {
+
+/// The kinetic energy, in the pass that looks at all particles.
+double looked_at(const State& state) {
+  const Particles& p = state.particles;
+  const std::size_t count = p.size();
+  const double* mass = p.mass.data();
+  const double* velocity = p.velocity.data();
+  const double* stress = p.stress.data();
+  const double* x = p.position.data();
+  double twice = 0.0;
+  double zeros = 0.0;  // not a number as soon as one stress or velocity is not finite
+  bool ordered = true;
+  double before = x[0];
+  for (std::size_t i = 0; i < count; ++i) {
+    twice += mass[i] * velocity[i] * velocity[i];
+    zeros += 0.0 * stress[i] + 0.0 * velocity[i];
+    ordered &= before <= x[i];
+    before = x[i];
+  }
+  if (zeros == 0.0 && ordered) return 0.5 * twice;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!std::isfinite(velocity[i])) throw_not_finite(state, i, "velocity");
+    if (!std::isfinite(stress[i])) throw_not_finite(state, i, "stress");
+    if (i > 0 && x[i] < x[i - 1]) throw_out_of_order(state, i);
+  }
+  return 0.5 * twice;  // LCOV_EXCL_LINE: one of the above is so
+}
+
+}  // namespace
+
+void Guards::look(const Simulation& simulation) {
+  constexpr std::int64_t between_looks = 128;
+  if (simulation.state().step % between_looks != 0) return;
+  double kinetic = 0.0, gravity = 0.0, external_work = 0.0;
+  for (std::size_t body = 0; body < simulation.bodies(); ++body) {
+    const State& state = simulation.state(body);
+    kinetic += looked_at(state);
+    external_work += state.balance.external_work;
+    for (const auto& potential : simulation.plan(body).potentials) gravity += potential(state);
+  }
+  compare(simulation.state(), kinetic, gravity, external_work);
+}
+
+void Guards::check(const Simulation& simulation, const HistoryRow& row) {
+  for (const State& state : simulation.states()) looked_at(state);
+  compare(simulation.state(), row.kinetic + row.stored, row.gravity, row.external_work);
+}
+
+void Guards::compare(const State& state, double energy, double gravity, double external_work) {
+  supplied_ = std::max({supplied_, std::abs(gravity), std::abs(external_work)});
+  // What a load does in its first steps is booked with a velocity that it has yet to make.
+  constexpr std::int64_t first_steps = 4;
+  constexpr double most = 10.0;
+  if (state.step < first_steps || energy <= most * (start_ + supplied_)) return;
+  throw InvalidRun(
+      state.step, state.time, -1,
+      "unstable: energy " + (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
+          " J/m^2, the start and the loads supplied " + to_text(start_ + supplied_) +
+          "; a step that is too large for the motion, or too few particles per cell, are the usual causes");
+}
+
+}  // namespace hompm::detail

@@ -1,0 +1,39 @@
+// Whether a run is still one that a body could do.
+#pragma once
+
+#include <vector>
+
+#include <hompm/simulation/simulation.hpp>
+
+namespace hompm::detail {
+
+/// Stretches, positions on the grid and what reconstruction needs are looked at by the stages that use them,
+/// in every step. This looks at the rest: every particle's velocity and stress finite, particles in order,
+/// and no more energy than the start and the loads supplied. Throws `InvalidRun`.
+///
+/// The bound of the energy is ten times what was supplied. Unstable steps double the energy every few steps
+/// and pass any bound; what must not be stopped is a run that its scheme merely does badly, and FLIP with a
+/// shock has been seen to settle at nine times its energy (docs/stability.md, "Long runs").
+class Guards {
+ public:
+  /// `start` is the first row of the run, `supplied` the largest energy that loads had supplied so far
+  /// (J/m²).
+  Guards(const HistoryRow& start, double supplied)
+      : start_(start.kinetic + start.stored), supplied_(supplied) {}
+
+  /// After each step; looks at every 128th, and then at what can be had in one pass: kinetic energy.
+  void look(const Simulation& simulation);
+
+  /// Before anything of the present step is reported, with its row.
+  void check(const Simulation& simulation, const HistoryRow& row);
+
+  [[nodiscard]] double supplied() const { return supplied_; }
+
+ private:
+  void compare(const State& state, double energy, double gravity, double external_work);
+
+  double start_;
+  double supplied_;
+};
+
+}  // namespace hompm::detail
