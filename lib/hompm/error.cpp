@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -8,11 +9,13 @@ namespace hompm {
 namespace {
 
 std::string join(const std::vector<Problem>& problems) {
+  constexpr std::size_t most = 100;
   std::string text;
-  for (const Problem& problem : problems) {
+  for (std::size_t i = 0; i < std::min(problems.size(), most); ++i) {
     if (!text.empty()) text += '\n';
-    text += problem.origin.text() + ": " + problem.message;
+    text += problems[i].origin.text() + ": " + problems[i].message;
   }
+  if (problems.size() > most) text += "\nand " + std::to_string(problems.size() - most) + " more problems";
   return text;
 }
 

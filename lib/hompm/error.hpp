@@ -36,7 +36,7 @@ struct Problem {
 /// A scene or an option that cannot be computed. Thrown before anything is computed or written.
 class SceneError : public Error {
  public:
-  /// `problems` must not be empty; `what()` joins them, one line each, as "origin: message".
+  /// `problems` must not be empty; `what()` joins the first hundred, one line each, as "origin: message".
   explicit SceneError(std::vector<Problem> problems);
   SceneError(const Origin& origin, const std::string& message);
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }

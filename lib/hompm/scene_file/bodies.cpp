@@ -1,6 +1,7 @@
 // A scene of several bodies: each is read as a scene of its own.
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 
 #include <hompm/effects/registry.hpp>
@@ -11,6 +12,7 @@ namespace hompm::detail {
 namespace {
 
 constexpr std::size_t most_bodies = 1000;
+constexpr std::size_t most_pairs = 100'000;  // of a body and an effect
 constexpr std::array own_of_scheme{"cells", "particles_per_cell", "margin_cells", "relaxation_rate"};
 constexpr std::array own_tables{"material", "initial", "ends", "grid"};
 
@@ -28,40 +30,50 @@ bool is_of_bodies(const std::string& path) { return path == "body" || path.start
 
 }  // namespace
 
-std::vector<Said> said_of_bodies(Reading& reading) {
-  auto& values = reading.said.values;
+std::size_t count_bodies(Reading& reading) {
+  const auto& values = reading.said.values;
   const SaidValue* list = reading.said.find("body");
-  if (list == nullptr || !std::holds_alternative<Array>(list->content)) return {};
-  std::size_t count = 0;
-  while (values.contains(path_of(count))) ++count;
-  std::vector<Said> bodies;
+  if (list == nullptr || !std::holds_alternative<Array>(list->content)) return 0;
+  std::set<std::string> bodies;
+  while (values.contains(path_of(bodies.size()))) bodies.insert(path_of(bodies.size()));
+  const std::size_t count = bodies.size();
+  std::size_t effects = 0;
+  while (values.contains(effect_path(effects))) ++effects;
   if (count == 0 || count > most_bodies) {
     reading.report(list->value, "there must be 1 to " + std::to_string(most_bodies) +
                                     " [[body]] tables, not " + std::to_string(count));
-    return {};
+    return 0;
   }
-  for (std::size_t body = 0; body < count; ++body) {
-    const std::string own = path_of(body);
-    Said said{reading.said.source, {}};
-    for (const auto& [path, value] : values)
-      if (!is_of_bodies(path)) said.values[path] = value;
-    for (const auto& [path, value] : values) {
-      if (path == own) said.values["body"] = value;
-      if (!path.starts_with(own + '.')) continue;
-      const std::string to = place_of_key(path.substr(own.size() + 1));
-      SaidValue moved = value;
-      moved.parent = parent_path(to);
-      said.values[to] = std::move(moved);
-    }
-    bodies.push_back(std::move(said));
+  if (count * effects > most_pairs) {
+    reading.report(list->value, "with " + std::to_string(count) + " [[body]] tables there must be at most " +
+                                    std::to_string(most_pairs / count) + " [[effect]] tables, not " +
+                                    std::to_string(effects));
+    return 0;
   }
   for (const auto& [path, value] : values) {
-    const std::string whose = path.substr(0, path.find(']') + 1);
-    if (path.starts_with("body[") && path != whose && !values.contains(whose))
+    const std::string whose = path.substr(0, path.find('.'));
+    if (path.starts_with("body[") && !bodies.contains(whose))
       reading.report(value.key, "the scene has no " + printable(whose) + "; it has " + std::to_string(count) +
                                     " bodies, from body[0]");
   }
-  return bodies;
+  return count;
+}
+
+Said said_of_body(const Said& all, std::size_t body) {
+  const std::string own = path_of(body);
+  Said said{all.source, {}};
+  for (const auto& [path, value] : all.values)
+    if (!is_of_bodies(path)) said.values[path] = value;
+  said.values["body"] = all.values.at(own);
+  const std::string below = own + '.';
+  for (auto at = all.values.lower_bound(below); at != all.values.end() && at->first.starts_with(below);
+       ++at) {
+    const std::string to = place_of_key(at->first.substr(below.size()));
+    SaidValue moved = at->second;
+    moved.parent = parent_path(to);
+    said.values[to] = std::move(moved);
+  }
+  return said;
 }
 
 std::string name_in_body(const std::string& path) {

@@ -33,6 +33,20 @@ void complete_kinematics(Reading& reading) {
                            "\"infinitesimal\"; the small-strain law is linear");
 }
 
+/// What is computed from the time of a wave, critical step and relaxation, must not overflow.
+void check_wave_time(Reading& reading) {
+  if (!reading.has("material.density") || !reading.has("material.youngs_modulus") ||
+      !reading.has("body.length"))
+    return;
+  const MaterialSpec& material = reading.scene.material;
+  const double time = reading.scene.body.length / std::sqrt(material.youngs_modulus / material.density);
+  if (time >= 1e-200 && time <= 1e200) return;
+  reading.report(reading.said.where("material.youngs_modulus"),
+                 "the time of a wave through the body, length/√(youngs_modulus/density), must be from 1e-200 "
+                 "to 1e200 s, not " +
+                     toml_number(time));
+}
+
 void check_degree(Reading& reading, const Scheme& scheme) {
   int& degree = reading.scene.scheme.degree;
   if (degree >= scheme.lowest_degree && degree <= scheme.highest_degree) return;
@@ -162,7 +176,10 @@ void complete(Reading& reading) {
   if (scheme != schemes.end()) {
     complete_scheme(reading, *scheme);
     check_choices(reading);
+  } else {
+    reading.scene.scheme.degree = 1;  // no scheme says what it may be
   }
+  check_wave_time(reading);
   check_body(reading);
   check_particle_count(reading);
   check_time_step(reading);

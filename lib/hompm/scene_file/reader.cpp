@@ -3,6 +3,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -76,20 +77,24 @@ void read_body(Reading& reading) {
 }
 
 /// The scene of the first body with the scenes of all. What is wrong with what they share is said once.
-void read_bodies(Reading& reading, const std::vector<Said>& bodies) {
+void read_bodies(Reading& reading, std::size_t count) {
+  constexpr std::size_t enough = 100;  // problems, to leave those of further bodies for later
   std::vector<Scene> scenes;
-  for (const Said& said : bodies) {
-    Reading own{.said = said,
-                .body = static_cast<std::int64_t>(scenes.size()),
-                .bodies = static_cast<std::int64_t>(bodies.size())};
-    own.scene.effect_types = reading.scene.effect_types;
+  std::set<std::string> told;
+  const EffectCatalogue* effects = reading.scene.effect_types;
+  for (std::size_t body = 0; body < count && reading.problems.size() <= enough; ++body) {
+    Reading own{.said = said_of_body(reading.said, body),
+                .body = static_cast<std::int64_t>(body),
+                .bodies = static_cast<std::int64_t>(count)};
+    own.scene.effect_types = effects;
     read_body(own);
-    for (Problem& problem : own.problems) {
-      const auto same = [&](const Problem& other) {
-        return other.message == problem.message && other.origin.text() == problem.origin.text();
-      };
-      if (std::ranges::none_of(reading.problems, same)) reading.problems.push_back(std::move(problem));
-    }
+    for (Problem& problem : own.problems)
+      if (told.insert(problem.origin.text() + ' ' + problem.message).second)
+        reading.problems.push_back(std::move(problem));
+    if (body == 0) reading.scene = own.scene;
+    std::erase_if(own.scene.effects, [&](const EffectSpec& effect) {
+      return find_effect(own.scene, effect).couples() || effect.body.value_or(own.body) != own.body;
+    });
     scenes.push_back(std::move(own.scene));
   }
   for (const Scene& scene : scenes)
@@ -97,15 +102,7 @@ void read_bodies(Reading& reading, const std::vector<Said>& bodies) {
       reading.report(
           scene.origins.at("material.law"),
           "all bodies must have the same kinematics: the law linear is infinitesimal, the others are finite");
-  reading.scene = scenes.front();
-  if (scenes.size() == 1) return;
-  if (reading.problems.empty())
-    for (std::size_t body = 0; body < scenes.size(); ++body)
-      std::erase_if(scenes[body].effects, [&](const EffectSpec& effect) {
-        return find_effect(reading.scene, effect).couples() ||
-               effect.body.value_or(static_cast<std::int64_t>(body)) != static_cast<std::int64_t>(body);
-      });
-  reading.scene.bodies = std::move(scenes);
+  if (scenes.size() > 1) reading.scene.bodies = std::move(scenes);
 }
 
 std::string file_text(const std::string& path) {
@@ -134,11 +131,10 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
   detail::Reading reading{.said = detail::read_toml(text, source)};
   reading.scene.effect_types = &effects;
   detail::apply_overrides(reading, overrides);
-  const std::vector<detail::Said> bodies = detail::said_of_bodies(reading);
-  if (bodies.empty())
-    detail::read_body(reading);
-  else
+  if (const std::size_t bodies = detail::count_bodies(reading); bodies > 0)
     detail::read_bodies(reading, bodies);
+  else
+    detail::read_body(reading);
   if (!reading.problems.empty()) {
     detail::sort_by_position(reading.problems, source);
     throw SceneError(std::move(reading.problems));

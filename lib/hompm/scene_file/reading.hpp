@@ -33,10 +33,12 @@ struct Reading {
 /// Puts the overrides in the place of what the file says.
 void apply_overrides(Reading& reading, const std::vector<Override>& overrides);
 
-/// What a scene with [[body]] tables says of each body, as if it were the only one: what a table says goes
-/// before what the scene says of all. Empty where there is one body; tables that are none are reported in
-/// `reading`.
-std::vector<Said> said_of_bodies(Reading& reading);
+/// How many [[body]] tables there are; 0 where the scene has none, or wrong ones, which are reported.
+std::size_t count_bodies(Reading& reading);
+
+/// What a scene with [[body]] tables says of one of them, as if it were the only one: what its table says
+/// goes before what the scene says of all.
+Said said_of_body(const Said& all, std::size_t body);
 
 /// The name in a [[body]] table of the key at `path`: "cells" for "scheme.cells"; "" where all bodies share
 /// it.

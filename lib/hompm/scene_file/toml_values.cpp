@@ -10,6 +10,7 @@ namespace hompm::detail {
 namespace {
 
 constexpr int deepest = 3;  // of any key of a scene: initial.velocity.shape
+constexpr std::size_t most_values = 100'000;
 
 // toml++ bounds the nesting of brackets, but builds and destroys one table per dot of a dotted name by
 // recursion, so that a line of 50,000 dots ends on the stack. Position of the first name with too many dots.
@@ -136,6 +137,10 @@ Said read_toml(const std::string& text, const std::string& source) {
     throw SceneError(Origin{source, static_cast<int>(at.line), static_cast<int>(at.column)},
                      printable(std::string(error.description()), 300));
   }
+  if (said.values.size() > most_values)
+    throw SceneError(Origin{source, 0, 0}, "there are " + std::to_string(said.values.size()) +
+                                               " keys and tables; a scene has at most " +
+                                               std::to_string(most_values));
   return said;
 }
 

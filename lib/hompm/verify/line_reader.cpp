@@ -20,7 +20,7 @@ LineReader::LineReader(std::filesystem::path path)
     // O_NONBLOCK: opening a pipe must not wait for a writer. It means nothing for regular files.
     : path_(std::move(path)),
       descriptor_(::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)),
-      buffer_(buffer_size) {
+      buffer_(std::make_unique_for_overwrite<char[]>(buffer_size)) {
   if (descriptor_ < 0) throw FileError("read", path_, errno);
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
@@ -34,7 +34,7 @@ LineReader::~LineReader() { ::close(descriptor_); }
 bool LineReader::next() {
   std::size_t searched = 0;
   while (true) {
-    const char* start = buffer_.data() + begin_;
+    const char* start = buffer_.get() + begin_;
     const void* found = std::memchr(start + searched, '\n', end_ - begin_ - searched);
     if (found != nullptr) {
       has_end_ = true;
@@ -56,7 +56,7 @@ bool LineReader::next() {
 }
 
 void LineReader::take(std::size_t length) {
-  line_ = {buffer_.data() + begin_, length};
+  line_ = {buffer_.get() + begin_, length};
   begin_ += length;
   ++number_;
   has_carriage_return_ = line_.ends_with('\r');
@@ -64,11 +64,11 @@ void LineReader::take(std::size_t length) {
 }
 
 bool LineReader::fill() {
-  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
   while (true) {
-    const auto count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+    const auto count = ::read(descriptor_, buffer_.get() + end_, buffer_size - end_);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw FileError("read", path_, errno);
     end_ += static_cast<std::size_t>(count);

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string_view>
-#include <vector>
 
 namespace hompm::detail {
 
@@ -36,7 +36,7 @@ class LineReader {
 
   std::filesystem::path path_;
   int descriptor_ = -1;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;
   std::size_t begin_ = 0;  // of what is not yet handed out
   std::size_t end_ = 0;
   std::string_view line_;

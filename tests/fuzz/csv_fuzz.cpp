@@ -1,0 +1,94 @@
+// Any bytes are a table or are refused; a table without faults is identical to itself.
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <vector>
+
+#include <hompm/error.hpp>
+#include <hompm/verify/csv_table.hpp>
+#include <hompm/verify/field_judge.hpp>
+#include <hompm/verify/foreign_table.hpp>
+#include <hompm/verify/table_comparison.hpp>
+
+#include "demand.hpp"
+
+namespace {
+
+using namespace hompm;
+using namespace hompm::detail;
+
+const std::vector<std::string> fields{"displacement", "velocity", "stress"};
+const std::string golden = R"(time,particle,displacement,velocity,stress
+0,0,0,0.006135884649154475,0
+0,1,0,0.01840672990580482,0
+0.5,0,0.0014,-0.003,12.5
+0.5,1,0.004,1e-17,-3e100
+)";
+
+/// A file in memory.
+class MemoryFile {
+ public:
+  MemoryFile(const void* data, std::size_t size) : descriptor_(::memfd_create("table", MFD_CLOEXEC)) {
+    demand(::write(descriptor_, data, size) == static_cast<ssize_t>(size), "the memory file is written");
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  [[nodiscard]] std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+void compare(const MemoryFile& a, const MemoryFile& b, bool with_particles) {
+  MessageLog faults;
+  MessageLog notes;
+  CsvTable table_a(a.path(), fields, with_particles, faults, notes);
+  CsvTable table_b(b.path(), fields, with_particles, faults, notes);
+  FieldJudge judge("table.csv", fields, std::vector<Tolerance>(fields.size(), {.relative = 1e-3}));
+  if (table_a.has_keys() && table_b.has_keys()) compare_tables(table_a, table_b, fields.size(), judge);
+  demand(&a != &b || !judge.first().has_value(), "a table is identical to itself");
+  for (const std::string& message : faults.messages()) demand(message.size() < 2000, message);
+}
+
+void read_foreign(const MemoryFile& file, std::optional<double> only_time) {
+  MessageLog faults;
+  MessageLog notes;
+  ForeignTable table(file.path(), fields, only_time, faults, notes);
+  if (!table.is_usable()) return;
+  const std::vector<ParticleBlock> blocks = table.read(table.times());
+  demand(blocks.size() == table.times().size(), "each time has its block");
+  for (const ParticleBlock& block : blocks) {
+    for (std::size_t i = 1; i < block.X.size(); ++i) demand(block.X[i - 1] < block.X[i], "X ascends");
+    demand(block.values.size() == table.fields().size(), "each field has its values");
+    for (const auto& values : block.values)
+      demand(values.size() == block.X.size(), "each particle has its value");
+  }
+}
+
+void attempt(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const FileError&) {  // a line too long
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const MemoryFile sound(golden.data(), golden.size());
+  const MemoryFile file(data, size);
+  for (const bool with_particles : {true, false}) {
+    attempt([&] { compare(file, file, with_particles); });
+    attempt([&] { compare(file, sound, with_particles); });
+    attempt([&] { compare(sound, file, with_particles); });
+  }
+  attempt([&] { read_foreign(file, std::nullopt); });
+  attempt([&] { read_foreign(file, 0.5); });
+  return 0;
+}
