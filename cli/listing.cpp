@@ -114,7 +114,7 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
                      " s; critical step " + hompm::to_text(stepping.critical_time_step) + " s\n";
   for (std::size_t body = 0; body < simulation.bodies(); ++body) {
     if (simulation.bodies() > 1) text += "body " + std::to_string(body) + "\n";
-    text += stages_text(simulation.plan(body), simulation.state(body).moves);
+    text += stages_text(simulation.plan(body), simulation.state(body).basis_moves);
   }
   return text + couplings_text(simulation) + "effects absent: " + effects_left_out(scene) + "\n";
 }

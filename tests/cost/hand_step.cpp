@@ -48,7 +48,7 @@ constexpr int degree = 2;
 }
 
 [[gnu::noinline]] void move(State& state, const hompm::Rate& law) {
-  kernels::move_by_increments<degree, hompm::Kinematics::finite>(state, law);
+  kernels::move_by_increments<degree, kernels::Motion::updated>(state, law);
 }
 
 void step_by_hand(State& state, const hompm::Rate& law) {

@@ -16,6 +16,8 @@ EffectParameter which_end(const std::string& standard) {
 }
 
 std::string conflict_of_held_end(const EffectSpec&, const Scene& scene) {
+  if (scene.scheme.choices.sequence != Sequence::musl)
+    return "its impulse goes to the grid through the particles: `scheme.sequence` must be \"musl\"";
   if (scene.scheme.choices.time_integrator != TimeIntegrator::blanes_moan) return "";
   return "it takes a `scheme.time_integrator` whose kicks all go forward in time: \"euler-cromer\" or "
          "\"leapfrog\", not "
@@ -73,7 +75,7 @@ double BodyEnd::position(const State& state) const {
 
 template <class Visit>
 void BodyEnd::for_functions(const State& state, Visit visit) const {
-  const auto stencil = static_cast<std::size_t>(state.grid.degree()) + 1;
+  const std::size_t stencil = state.basis.stencil;
   for (const auto& [p, weight] : parts_)
     for (std::size_t k = 0; k < stencil; ++k)
       visit(static_cast<std::size_t>(state.basis.first[p]) + k, weight * state.basis.values[p * stencil + k]);
@@ -83,7 +85,7 @@ void BodyEnd::find(const State& state) {
   std::fill(grid_response_.begin(), grid_response_.end(), 0.0);
   for_functions(state, [&](std::size_t i, double value) { grid_response_[i] += value; });
   reaction_ = divide_by_mass_(state, grid_response_);
-  const auto stencil = static_cast<std::size_t>(state.grid.degree()) + 1;
+  const std::size_t stencil = state.basis.stencil;
   for (std::size_t p = 0; p < particle_response_.size(); ++p) {
     const double* n = &state.basis.values[p * stencil];
     const double* change = &grid_response_[static_cast<std::size_t>(state.basis.first[p])];

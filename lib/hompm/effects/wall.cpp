@@ -15,7 +15,7 @@ void check_position(const EffectSpec& spec, const State& state, Side side, doubl
   if (outward(side) * (position - end) < 0.0)
     throw SceneError(spec.origin, "the wall at " + to_text(position) +
                                       " m is inside the body, whose end is at " + to_text(end) + " m");
-  if (state.moves && state.grid.locate(position).cell < 0)
+  if (state.basis_moves && state.grid.locate(position).cell < 0)
     throw SceneError(spec.origin, "the wall at " + to_text(position) + " m is off the grid, " +
                                       grid_text(state) + "; " + raise_grid);
 }

@@ -42,6 +42,12 @@ void throw_boundary_left_grid(const State& state, double boundary) {
               "; " + raise_grid);
 }
 
+void throw_domain_too_wide(const State& state, std::size_t particle, double width) {
+  invalid(state, number(state, particle),
+          "its domain of " + text(width) + " m reaches over four cells of " + text(state.grid.cell_width()) +
+              " m, three at most; use more particles per cell");
+}
+
 void throw_inverted(const State& state, std::size_t particle, double stretch) {
   invalid(state, number(state, particle),
           "inverted: its stretch became " + text(stretch) +

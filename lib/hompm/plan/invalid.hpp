@@ -15,6 +15,7 @@ inline constexpr const char* raise_grid = "set grid.from and grid.to, or raise s
 
 [[noreturn]] void throw_left_grid(const State& state, std::size_t particle);
 [[noreturn]] void throw_boundary_left_grid(const State& state, double boundary);
+[[noreturn]] void throw_domain_too_wide(const State& state, std::size_t particle, double width);
 [[noreturn]] void throw_inverted(const State& state, std::size_t particle, double stretch);
 [[noreturn]] void throw_out_of_order(const State& state, std::size_t particle);
 [[noreturn]] void throw_not_finite(const State& state, std::size_t particle, const char* quantity);

@@ -70,8 +70,9 @@ struct PlanBuilder {
   /// Turns impulses b_i on the grid functions into changes of the grid velocity, M⁻¹ b with the mass by which
   /// the scheme divides forces; fixed ends stay at rest. Returns the sum of the impulses that hold them.
   std::function<double(const State&, std::vector<double>&)> divide_by_mass = {};
-  /// The scheme's projection of particle velocities (or changes of them) to the grid.
-  std::function<void(const State&, const std::vector<double>&, std::vector<double>&)> project = {};
+  /// The scheme's projection of particle velocities (or changes of them) to the grid. Returns what fixed ends
+  /// add to the momentum, kg/(m s).
+  std::function<double(const State&, const std::vector<double>&, std::vector<double>&)> project = {};
 
   void add(Phase phase, std::string name, std::function<void(State&)> run, std::string arrays = {}) {
     plan.phases[static_cast<std::size_t>(phase)].push_back(

@@ -31,19 +31,21 @@ numerics::SplineSpace make_grid(const Scene& scene) {
 }  // namespace
 
 State initial_state(const Scene& scene) {
-  const bool markers = scene.scheme.choices.markers;
   State state{.grid = make_grid(scene),
               .ends = scene.ends,
               .particles = {},
               .basis = {},
               .fields = {},
               .balance = {}};
+  const SchemeChoices& choices = scene.scheme.choices;
   state.moves = scene.kinematics == Kinematics::finite;
+  state.basis_moves = state.moves && choices.formulation == Formulation::updated_lagrangian;
   const auto per_cell = static_cast<std::size_t>(scene.scheme.particles_per_cell);
   const auto count = static_cast<std::size_t>(scene.scheme.cells) * per_cell;
   const double volume = scene.body.length / static_cast<double>(count);
 
   Particles& p = state.particles;
+  const bool markers = choices.markers;
   p.markers = markers ? 1 : 0;
   if (markers) p.reference_position.push_back(0.0);
   for (std::size_t i = 0; i < count; ++i)
@@ -69,7 +71,15 @@ State initial_state(const Scene& scene) {
   state.left_boundary = scene.body.left();
   state.right_boundary = scene.body.right();
 
-  const auto stencil = static_cast<std::size_t>(scene.scheme.degree) + 1;
+  if (choices.basis == Basis::carried_domains)
+    for (std::size_t i = 0; i < count; ++i)
+      p.right_end.push_back(i + 1 == count ? scene.body.right()
+                                           : 0.5 * (p.reference_position[i] + p.reference_position[i + 1]));
+  if (choices.transfer == Transfer::apic) p.velocity_gradient.assign(sites, 0.0);
+
+  const std::size_t stencil =
+      choices.basis == Basis::splines ? static_cast<std::size_t>(scene.scheme.degree) + 1 : 4;
+  state.basis.stencil = stencil;
   state.basis.first.assign(sites, 0);
   state.basis.values.assign(sites * stencil, 0.0);
   state.basis.gradients.assign(sites * stencil, 0.0);

@@ -28,13 +28,16 @@ struct Particles {
   std::vector<double> stretch;             ///< λ
   std::vector<double> stress;              ///< σ, Pa
   std::vector<double> plastic_strain;      ///< ε_p; empty unless an effect needs it
+  std::vector<double> right_end;           ///< of the domain, m; empty unless the grid carries it along
+  std::vector<double> velocity_gradient;   ///< 1/s, carried by APIC; empty without
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }  ///< markers included
 };
 
 /// Grid functions at the particles: for each particle the first function that is not zero there, and the
-/// values and gradients (1/m) of the degree + 1 functions from that one on.
+/// values and gradients (1/m) of `stencil` functions from that one on.
 struct BasisAtParticles {
+  std::size_t stencil = 0;  ///< degree + 1 for splines
   std::vector<std::int32_t> first;
   std::vector<double> values;
   std::vector<double> gradients;
@@ -68,6 +71,7 @@ struct State {
   numerics::SplineSpace grid;
   Ends ends;
   bool moves = true;           ///< finite kinematics
+  bool basis_moves = true;     ///< the same, but for total Lagrangian formulations: particles cross cells
   double total_mass = 0.0;     ///< kg/m²
   double left_boundary = 0.0;  ///< of the material, m
   double right_boundary = 0.0;

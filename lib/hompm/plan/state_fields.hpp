@@ -12,7 +12,7 @@ namespace hompm {
 enum class Site {
   run,                ///< one value for the whole run
   particle,           ///< one entry per particle, markers included
-  particle_function,  ///< degree + 1 entries per particle
+  particle_function,  ///< `BasisAtParticles::stencil` entries per particle
   function,           ///< one entry per grid function
 };
 
@@ -23,11 +23,11 @@ enum class Site {
 template <class AnyState, class Visit>
 void visit_fields(AnyState& state, Visit visit) {
   // Every member is named, so that a new one does not compile before it has its place here.
-  auto& [step, time, position_time, time_step, kick, drift, grid, ends, moves, total_mass, left_boundary,
-         right_boundary, left_stress, right_stress, particles, basis, fields, balance] = state;
+  auto& [step, time, position_time, time_step, kick, drift, grid, ends, moves, basis_moves, total_mass,
+         left_boundary, right_boundary, left_stress, right_stress, particles, basis, fields, balance] = state;
   auto& [markers, reference_position, displacement, position, velocity, mass, reference_density,
-         reference_volume, volume, stretch, stress, plastic_strain] = particles;
-  auto& [first, values, gradients] = basis;
+         reference_volume, volume, stretch, stress, plastic_strain, right_end, velocity_gradient] = particles;
+  auto& [stencil, first, values, gradients] = basis;
   auto& [grid_mass, internal_force, force, acceleration, momentum, grid_velocity] = fields;
   auto& [dissipated, external_work, impulse] = balance;
 
@@ -53,6 +53,9 @@ void visit_fields(AnyState& state, Visit visit) {
   visit("particles.stretch", Site::particle, std::span(stretch));
   visit("particles.stress", Site::particle, std::span(stress));
   if (!plastic_strain.empty()) visit("particles.plastic_strain", Site::particle, std::span(plastic_strain));
+  if (!right_end.empty()) visit("particles.right_end", Site::particle, std::span(right_end));
+  if (!velocity_gradient.empty())
+    visit("particles.velocity_gradient", Site::particle, std::span(velocity_gradient));
   visit("basis.first", Site::particle, std::span(first));
   visit("basis.values", Site::particle_function, std::span(values));
   visit("basis.gradients", Site::particle_function, std::span(gradients));

@@ -3,6 +3,19 @@
 
 namespace hompm {
 
+/// The functions that carry particle data to the grid and back.
+enum class Basis {
+  splines,             ///< B-splines of the scheme's degree at the particle; degree 1: hat functions
+  uniform_domains,     ///< hat functions averaged over the particle's domain, of the initial length
+  contiguous_domains,  ///< the same, the domain stretched as the particle
+  carried_domains,     ///< hat functions made linear over a domain whose ends the grid carries along
+  smoothed_gradients,  ///< hat functions, their gradients mixed with averages around the nodes
+};
+/// Where the basis lives.
+enum class Formulation {
+  updated_lagrangian,  ///< on the present configuration: particles cross cells
+  total_lagrangian,    ///< on the reference configuration
+};
 /// Where stress (and consistent mass) are integrated.
 enum class Quadrature {
   particles,      ///< at the particles, with their volumes
@@ -19,13 +32,22 @@ enum class VelocityProjection {
   consistent,     ///< of the reconstructed ρ and v, with the consistent mass
   least_squares,  ///< the grid velocity nearest to the particles': Σ m_p (Σ N_i v_i − v_p)² is least
 };
+/// The parts of a step in their order (Bardenhagen, J. Comput. Phys. 180 (2002) 383–403).
+enum class Sequence {
+  musl,  ///< forces, particle velocities, these to the grid, stress: modified update stress last
+  usl,   ///< forces, grid velocities, stress: update stress last
+  usf,   ///< stress, of the velocities at the start of the step, forces, grid velocities
+};
 /// What particles take back from the grid.
 enum class Transfer {
-  flip,  ///< the change of velocity
+  flip,  ///< the change of velocity, or that mixed with the velocity
   pic,   ///< the velocity
+  apic,  ///< the velocity and its gradient (Jiang et al. 2015)
+  xpic,  ///< the change of velocity, less what a filter finds that the grid does not see
 };
 enum class StressUpdate {
-  incremental,  ///< σ += (dσ/dε) dε
+  incremental,   ///< σ += (dσ/dε) dε
+  from_stretch,  ///< λ ← λ (1 + dε), σ = σ(λ)
   from_positions,  ///< λ = ∂x/∂X of the spline through the positions, σ = σ(λ): nothing is summed up, nothing
                    ///< drifts
 };
@@ -48,10 +70,15 @@ enum class Conserve {
 
 /// The defaults are the classical form.
 struct SchemeChoices {
+  Basis basis = Basis::splines;
+  Formulation formulation = Formulation::updated_lagrangian;
   Quadrature quadrature = Quadrature::particles;
   MassForm acceleration_mass = MassForm::lumped;
   VelocityProjection velocity_projection = VelocityProjection::lumped;
+  Sequence sequence = Sequence::musl;
   Transfer transfer = Transfer::flip;
+  double flip_fraction = 1.0;  ///< of the change of velocity; the rest is the velocity itself
+  int xpic_order = 2;          ///< m of XPIC(m); 1 is PIC
   StressUpdate stress_update = StressUpdate::incremental;
   TimeIntegrator time_integrator = TimeIntegrator::euler_cromer;
   FreeEnd free_end = FreeEnd::particles;

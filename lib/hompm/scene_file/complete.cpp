@@ -105,6 +105,19 @@ void check_choices(Reading& reading) {
     const auto said = reading.silent_on(path) ? std::string("scheme.name") : path;
     reading.report(reading.said.where(said), '`' + path + "` " + message);
   };
+  const bool domains = c.basis != Basis::splines;
+  const std::string of_hats = "other than \"splines\" is made of hat functions: `scheme.";
+  demand_that(!domains || reading.scene.scheme.degree == 1, "basis",
+              of_hats + "degree` must be 1, not " + std::to_string(reading.scene.scheme.degree));
+  demand_that(!domains || c.quadrature == Quadrature::particles, "basis",
+              of_hats + "quadrature` must be \"particles\"");
+  demand_that(!domains || c.velocity_projection == VelocityProjection::lumped, "basis",
+              of_hats + "velocity_projection` must be \"lumped\"");
+  demand_that(!domains || !c.markers, "basis", of_hats + "markers` must be false: a marker has no domain");
+  demand_that(!domains || !(reading.scene.scheme.relaxation_rate > 0.0), "basis",
+              of_hats + "relaxation_rate` must be 0");
+  demand_that(!domains || reading.scene.scheme.cells >= 3 || !reading.has("scheme.cells"), "basis",
+              of_hats + "cells` must be at least 3");
   const bool reconstructs = c.quadrature != Quadrature::particles;
   const std::string needs_fields =
       "needs reconstructed fields: `scheme.quadrature` must be \"reconstructed\" or \"reconstructed-exact\"";
@@ -124,6 +137,18 @@ void check_choices(Reading& reading) {
               "free_end",
               "= \"extension\" ties functions of a consistent mass: `scheme.acceleration_mass` or "
               "`scheme.velocity_projection` must have one");
+  demand_that(
+      c.transfer != Transfer::apic || c.sequence != Sequence::musl, "transfer",
+      "= \"apic\" gives back the velocity after the kick: `scheme.sequence` must be \"usl\" or \"usf\"");
+  demand_that(c.transfer != Transfer::apic || c.velocity_projection == VelocityProjection::lumped, "transfer",
+              "= \"apic\" is a projection of its own: `scheme.velocity_projection` must be \"lumped\"");
+  demand_that(c.transfer == Transfer::flip || c.flip_fraction == 1.0, "flip_fraction",
+              "mixes FLIP and PIC: `scheme.transfer` must be \"flip\"");
+  demand_that(c.sequence != Sequence::usf || c.time_integrator == TimeIntegrator::euler_cromer, "sequence",
+              "= \"usf\" strains before the forces: `scheme.time_integrator` must be \"euler-cromer\"");
+  demand_that(c.sequence != Sequence::usf || c.stress_update != StressUpdate::from_positions, "sequence",
+              "= \"usf\" strains before it moves: `scheme.stress_update` must be \"incremental\" or "
+              "\"from-stretch\"");
   demand_that(
       !(reading.scene.scheme.relaxation_rate > 0.0) || c.stress_update == StressUpdate::from_positions,
       "relaxation_rate",

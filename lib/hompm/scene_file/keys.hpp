@@ -15,8 +15,8 @@ namespace hompm::detail {
 
 /// The member of a Scene that holds the value of a key.
 using Slot = std::variant<double*, int*, bool*, std::string*, std::optional<double>*, End*, Kinematics*,
-                          Quadrature*, MassForm*, VelocityProjection*, Transfer*, StressUpdate*,
-                          TimeIntegrator*, FreeEnd*, Conserve*>;
+                          Basis*, Formulation*, Quadrature*, MassForm*, VelocityProjection*, Sequence*,
+                          Transfer*, StressUpdate*, TimeIntegrator*, FreeEnd*, Conserve*>;
 
 enum class Absent {
   missing,    ///< an error

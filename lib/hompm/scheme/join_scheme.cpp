@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <type_traits>
 
 #include <hompm/scheme/data_splines.hpp>
 #include <hompm/scheme/join_scheme.hpp>
@@ -13,13 +14,23 @@ using detail::Reconstruction;
 using detail::scatter;
 using Shared = std::shared_ptr<Reconstruction>;
 
+void check_boundaries(const State& state) {
+  for (const double boundary : {state.left_boundary, state.right_boundary})
+    if (state.grid.locate(boundary).cell < 0) detail::throw_boundary_left_grid(state, boundary);
+}
+
 /// With markers these are the ends of the body, without the ends of the outer particles.
 void find_boundaries(State& state) {
   const Particles& p = state.particles;
   if (state.ends.left == End::free) state.left_boundary = p.position.front() - 0.5 * p.volume.front();
   if (state.ends.right == End::free) state.right_boundary = p.position.back() + 0.5 * p.volume.back();
-  for (const double boundary : {state.left_boundary, state.right_boundary})
-    if (state.grid.locate(boundary).cell < 0) detail::throw_boundary_left_grid(state, boundary);
+  check_boundaries(state);
+}
+
+/// The ends of the outer particles' domains, which the grid carries along.
+void find_carried_boundaries(State& state) {
+  state.right_boundary = state.particles.right_end.back();
+  check_boundaries(state);
 }
 
 template <int P>
@@ -45,8 +56,13 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
   const SchemeChoices& choices = builder.scene.scheme.choices;
   const Ends& ends = builder.scene.ends;
   if (ends.left == End::free || ends.right == End::free)
-    builder.add(Phase::geometry, "material boundary at free ends", find_boundaries);
-  builder.add(Phase::geometry, "basis at the particles", detail::evaluate_basis<P>);
+    builder.add(Phase::geometry, "material boundary at free ends",
+                choices.basis == Basis::carried_domains ? find_carried_boundaries : find_boundaries);
+  if (choices.basis == Basis::splines)
+    builder.add(Phase::geometry, "basis at the particles", detail::evaluate_basis<P>);
+  else
+    builder.add(Phase::geometry, "basis over the particle domains",
+                [basis = choices.basis](State& state) { detail::evaluate_domains(state, basis); });
   const bool consistent = choices.acceleration_mass == MassForm::consistent;
   const bool particle_row_sums = !consistent || choices.conserve == Conserve::momentum;
   if (particle_row_sums)
@@ -93,12 +109,14 @@ void join_forces(PlanBuilder& builder, const Shared& splines) {
         [splines](State& state) { splines->internal_force(state); },
         "per particle: the spline's coefficients");
   } else {
-    builder.add(Phase::internal_force, "internal force from the particles", [](State& state) {
+    const bool total = builder.scene.scheme.choices.formulation == Formulation::total_lagrangian;
+    builder.add(Phase::internal_force, "internal force from the particles", [total](State& state) {
       auto& force = state.fields.internal_force;
       std::fill(force.begin(), force.end(), 0.0);
       const Particles& particles = state.particles;
+      const auto& volumes = total ? particles.reference_volume : particles.volume;
       scatter<P>(state, state.basis.gradients, force,
-                 [volume = particles.volume.data(), stress = particles.stress.data()](std::size_t p) {
+                 [volume = volumes.data(), stress = particles.stress.data()](std::size_t p) {
                    return volume[p] * stress[p];
                  });
     });
@@ -109,6 +127,7 @@ void join_forces(PlanBuilder& builder, const Shared& splines) {
   });
 }
 
+/// Each particle reaches P + 1 functions: P is the degree of splines.
 template <int P>
 void join(const Material& material, PlanBuilder& builder) {
   const SchemeSpec& scheme = builder.scene.scheme;
@@ -119,23 +138,41 @@ void join(const Material& material, PlanBuilder& builder) {
   const auto least_squares = relaxes || choices.velocity_projection == VelocityProjection::least_squares
                                  ? std::make_shared<detail::LeastSquares<P>>(builder.state, choices)
                                  : nullptr;
-  builder.velocity_gradient = [](const State& state, std::vector<double>& gradient) {
+  const auto affine = choices.transfer == Transfer::apic
+                          ? std::make_shared<detail::AffineVelocity<P>>(builder.state, choices)
+                          : nullptr;
+  const bool total = detail::motion_of(builder.state) == detail::Motion::total;
+  builder.velocity_gradient = [total](const State& state, std::vector<double>& gradient) {
     const detail::Gather<P> at(state, state.basis.gradients, state.fields.velocity);
     for (std::size_t p = 0; p < gradient.size(); ++p) gradient[p] = at(p);
+    if (!total) return;
+    for (std::size_t p = 0; p < gradient.size(); ++p) gradient[p] /= state.particles.stretch[p];
   };
   join_geometry<P>(builder, splines, least_squares);
-  join_forces<P>(builder, splines);
-  detail::join_velocity<P>(builder, splines, least_squares);
-  if (relaxes) detail::join_relaxation<P>(builder, least_squares);
-  if (builder.scene.kinematics == Kinematics::finite)
-    detail::join_motion<P, Kinematics::finite>(material, builder);
-  else
-    detail::join_motion<P, Kinematics::infinitesimal>(material, builder);
+  detail::join_projection<P>(builder, splines, least_squares, affine);
+  const auto with_motion = [&](auto motion) {
+    constexpr detail::Motion value = decltype(motion)::value;
+    if (choices.sequence == Sequence::usf) detail::join_stress_first<P, value>(material, builder);
+    join_forces<P>(builder, splines);
+    detail::join_velocity<P>(builder, splines, affine);
+    if (relaxes) detail::join_relaxation<P>(builder, least_squares);
+    detail::join_motion<P, value>(material, builder);
+  };
+  switch (detail::motion_of(builder.state)) {
+    case detail::Motion::infinitesimal:
+      return with_motion(std::integral_constant<detail::Motion, detail::Motion::infinitesimal>{});
+    case detail::Motion::updated:
+      return with_motion(std::integral_constant<detail::Motion, detail::Motion::updated>{});
+    case detail::Motion::total:
+      return with_motion(std::integral_constant<detail::Motion, detail::Motion::total>{});
+  }
 }
 
 }  // namespace
 
 void join_scheme(const Material& material, PlanBuilder& builder) {
+  if (builder.scene.scheme.choices.basis != Basis::splines)
+    return join<detail::domain_stencil - 1>(material, builder);
   switch (builder.scene.scheme.degree) {
     case 1:
       return join<1>(material, builder);

@@ -7,12 +7,25 @@
 #include <hompm/plan/plan.hpp>
 #include <hompm/scheme/data_splines.hpp>
 #include <hompm/scheme/least_squares.hpp>
+#include <hompm/scheme/particle_domains.hpp>
 #include <hompm/scheme/particle_transfer.hpp>
 
 namespace hompm::detail {
 
+/// What a motion changes.
+enum class Motion {
+  infinitesimal,  ///< nothing moves
+  updated,        ///< gradients are ∂/∂x
+  total,          ///< gradients are ∂/∂X: ∂v/∂x = (∂v/∂X)/λ
+};
+
+inline Motion motion_of(const State& state) {
+  if (!state.moves) return Motion::infinitesimal;
+  return state.basis_moves ? Motion::updated : Motion::total;
+}
+
 /// x = X + u and V = V0 λ with finite kinematics; nothing moves with infinitesimal ones.
-template <Kinematics kinematics>
+template <Motion motion>
 class Placement {
  public:
   explicit Placement(Particles& p)
@@ -21,11 +34,11 @@ class Placement {
         position_(p.position.data()),
         volume_(p.volume.data()) {}
 
-  void operator()(std::size_t i, double displacement, double stretch) const {
-    if constexpr (kinematics == Kinematics::finite) {
-      position_[i] = reference_position_[i] + displacement;
-      volume_[i] = reference_volume_[i] * stretch;
-    }
+  void place(std::size_t i, double displacement) const {
+    if constexpr (motion != Motion::infinitesimal) position_[i] = reference_position_[i] + displacement;
+  }
+  void stretch(std::size_t i, double stretch) const {
+    if constexpr (motion != Motion::infinitesimal) volume_[i] = reference_volume_[i] * stretch;
   }
 
  private:
@@ -35,35 +48,96 @@ class Placement {
   double* volume_;
 };
 
-/// u += Δt Σ N_i v_i and dε = Δt Σ dN_i/dx v_i for every particle, then the stress by the increment of the
-/// law, and with finite kinematics λ ← λ (1 + dε), V = V0 λ, x = X + u, with infinitesimal λ ← λ + dε (Tielen
-/// et al. 2017, section 3; docs/method.md). Throws `InvalidRun` when a stretch is not above zero.
-template <int P, Kinematics kinematics, class Law>
-void move_by_increments(State& state, const Law& law) {
-  Particles& p = state.particles;
-  const std::size_t count = p.size();
-  double* u = p.displacement.data();
-  double* stretch = p.stretch.data();
-  double* stress = p.stress.data();
-  const Placement<kinematics> place(p);
-  const double drift = state.drift;
-  const Gather<P> velocity(state, state.basis.values, state.fields.velocity);
-  const Gather<P> velocity_gradient(state, state.basis.gradients, state.fields.velocity);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double strain = drift * velocity_gradient(i);
-    const double moved = u[i] + drift * velocity(i);
-    const double before = stretch[i];
-    u[i] = moved;
-    stress[i] += law.modulus(stress[i], before) * strain;
-    if constexpr (kinematics == Kinematics::finite) {
-      const double after = before * (1.0 + strain);
-      stretch[i] = after;
-      if (!(after > 0.0)) throw_inverted(state, i, after);
-      place(i, moved, after);
+/// For a stress that follows from the stretch, later.
+struct NoStress {
+  [[nodiscard]] static double modulus(double /*stress*/, double /*stretch*/) { return 0.0; }
+};
+
+/// dε = Δt Σ dN_i/dx v_i of one particle after the other, then the stress by the increment of the law, and
+/// with finite kinematics λ ← λ (1 + dε), V = V0 λ, with infinitesimal λ ← λ + dε (Tielen et al. 2017,
+/// section 3; docs/method.md). Throws `InvalidRun` when a stretch is not above zero.
+template <int P, Motion motion, class Law>
+class Straining {
+ public:
+  Straining(State& state, const Law& law)
+      : state_(state),
+        law_(law),
+        place_(state.particles),
+        stretch_(state.particles.stretch.data()),
+        stress_(state.particles.stress.data()),
+        drift_(state.drift),
+        velocity_gradient_(state, state.basis.gradients, state.fields.velocity) {}
+
+  void operator()(std::size_t i) const {
+    const double before = stretch_[i];
+    double strain = drift_ * velocity_gradient_(i);
+    if constexpr (motion == Motion::total) strain /= before;
+    stress_[i] += law_.modulus(stress_[i], before) * strain;
+    if constexpr (motion == Motion::infinitesimal) {
+      stretch_[i] = before + strain;
     } else {
-      stretch[i] = before + strain;
+      const double after = before * (1.0 + strain);
+      stretch_[i] = after;
+      if (!(after > 0.0)) throw_inverted(state_, i, after);
+      place_.stretch(i, after);
     }
   }
+
+ private:
+  const State& state_;
+  const Law& law_;
+  Placement<motion> place_;
+  double* stretch_;
+  double* stress_;
+  double drift_;
+  Gather<P> velocity_gradient_;
+};
+
+/// u += Δt Σ N_i v_i and x = X + u of one particle after the other.
+template <int P, Motion motion>
+class Displacing {
+ public:
+  explicit Displacing(State& state)
+      : place_(state.particles),
+        u_(state.particles.displacement.data()),
+        drift_(state.drift),
+        velocity_(state, state.basis.values, state.fields.velocity) {}
+
+  void operator()(std::size_t i) const {
+    u_[i] += drift_ * velocity_(i);
+    place_.place(i, u_[i]);
+  }
+
+ private:
+  Placement<motion> place_;
+  double* u_;
+  double drift_;
+  Gather<P> velocity_;
+};
+
+template <int P, Motion motion, class Law>
+void move_by_increments(State& state, const Law& law) {
+  const std::size_t count = state.particles.size();
+  const Displacing<P, motion> displace(state);
+  const Straining<P, motion, Law> strain(state, law);
+  for (std::size_t i = 0; i < count; ++i) {
+    displace(i);
+    strain(i);
+  }
+}
+
+template <int P, Motion motion, class Law>
+void strain_by_increments(State& state, const Law& law) {
+  const std::size_t count = state.particles.size();
+  const Straining<P, motion, Law> strain(state, law);
+  for (std::size_t i = 0; i < count; ++i) strain(i);
+}
+
+template <int P, Motion motion>
+void displace(State& state) {
+  const std::size_t count = state.particles.size();
+  const Displacing<P, motion> displace(state);
+  for (std::size_t i = 0; i < count; ++i) displace(i);
 }
 
 /// λ = 1 + ∂u/∂X of the spline through (X_p, u_p), and σ(λ): path-independent laws, nothing summed up but
@@ -78,7 +152,7 @@ class StretchFromPositions {
       throw Error("reference positions are not in ascending order");
   }
 
-  template <Kinematics kinematics, class Law>
+  template <Motion motion, class Law>
   void update(State& state, const Law& law) {
     Particles& p = state.particles;
     splines_.fit(p.displacement, fit_);
@@ -87,12 +161,13 @@ class StretchFromPositions {
     const double* u = p.displacement.data();
     double* stretch = p.stretch.data();
     double* stress = p.stress.data();
-    const Placement<kinematics> place(p);
+    const Placement<motion> place(p);
     for (std::size_t i = 0; i < count; ++i) {
       const double after = 1.0 + stretch[i];
       stretch[i] = after;
-      if (kinematics == Kinematics::finite && !(after > 0.0)) throw_inverted(state, i, after);
-      place(i, u[i], after);
+      if (motion != Motion::infinitesimal && !(after > 0.0)) throw_inverted(state, i, after);
+      place.place(i, u[i]);
+      place.stretch(i, after);
       stress[i] = law.stress(after);
     }
   }
@@ -119,38 +194,80 @@ void join_relaxation(PlanBuilder& builder, const std::shared_ptr<LeastSquares<P>
       "per function: projected displacement");
 }
 
-template <class Splines, Kinematics kinematics>
+template <class Splines, Motion motion>
 void join_stretch_from_positions(const Material& material, PlanBuilder& builder) {
   const auto stretch = std::make_shared<StretchFromPositions<Splines>>(builder.state.particles);
   std::visit(
       [&](const auto& law) {
         builder.add(
             Phase::motion, "stretch from positions, stress",
-            [law, stretch](State& state) { stretch->template update<kinematics>(state, law); },
+            [law, stretch](State& state) { stretch->template update<motion>(state, law); },
             "per particle: spline matrix of the reference positions");
       },
       material);
 }
 
-template <int P, Kinematics kinematics>
+inline void join_stress_from_stretch(Phase phase, const Material& material, PlanBuilder& builder) {
+  std::visit(
+      [&](const auto& law) {
+        builder.add(phase, "stress of the stretch", [law](State& state) {
+          Particles& p = state.particles;
+          for (std::size_t i = 0; i < p.size(); ++i) p.stress[i] = law.stress(p.stretch[i]);
+        });
+      },
+      material);
+}
+
+/// Calls `visit` with the law by which the stress grows in the motion.
+template <class Visit>
+void visit_increments(const SchemeChoices& choices, const Material& material, Visit visit) {
+  if (choices.stress_update == StressUpdate::from_stretch)
+    visit(NoStress{});
+  else
+    std::visit(visit, material);
+}
+
+/// Stretch and stress by the grid velocity of the particles as they are, before the forces.
+template <int P, Motion motion>
+void join_stress_first(const Material& material, PlanBuilder& builder) {
+  const SchemeChoices& choices = builder.scene.scheme.choices;
+  builder.add(Phase::end_stress, "grid velocity of the particles (USF)",
+              [project = builder.project](State& state) {
+                project(state, state.particles.velocity, state.fields.velocity);
+              });
+  visit_increments(choices, material, [&](const auto& law) {
+    builder.add(Phase::end_stress, "stretch, stress (USF)",
+                [law](State& state) { strain_by_increments<P, motion>(state, law); });
+  });
+  if (choices.stress_update == StressUpdate::from_stretch)
+    join_stress_from_stretch(Phase::end_stress, material, builder);
+}
+
+template <int P, Motion motion>
 void join_motion(const Material& material, PlanBuilder& builder) {
   const SchemeChoices& choices = builder.scene.scheme.choices;
-  if (choices.stress_update == StressUpdate::incremental) {
-    std::visit(
-        [&](const auto& law) {
-          builder.add(Phase::motion, "displacement, stretch, stress",
-                      [law](State& state) { move_by_increments<P, kinematics>(state, law); });
-        },
-        material);
+  if (choices.basis == Basis::carried_domains && motion == Motion::updated)
+    builder.add(Phase::motion, "ends of the particle domains", carry_domains);
+  if (choices.sequence == Sequence::usf) {
+    builder.add(Phase::motion, "displacement", displace<P, motion>);
+    return;
+  }
+  if (choices.stress_update != StressUpdate::from_positions) {
+    visit_increments(choices, material, [&](const auto& law) {
+      builder.add(Phase::motion, "displacement, stretch, stress",
+                  [law](State& state) { move_by_increments<P, motion>(state, law); });
+    });
+    if (choices.stress_update == StressUpdate::from_stretch)
+      join_stress_from_stretch(Phase::motion, material, builder);
     return;
   }
   builder.add(Phase::motion, "displacement", [](State& state) {
     add_at_particles<P>(state, state.drift, state.fields.velocity, state.particles.displacement);
   });
   if (choices.quadrature == Quadrature::reconstructed_exact)
-    join_stretch_from_positions<MatchingSplines<P>, kinematics>(material, builder);
+    join_stretch_from_positions<MatchingSplines<P>, motion>(material, builder);
   else
-    join_stretch_from_positions<numerics::CubicSplineSites, kinematics>(material, builder);
+    join_stretch_from_positions<numerics::CubicSplineSites, motion>(material, builder);
 }
 
 }  // namespace hompm::detail

@@ -1,6 +1,7 @@
 // Transfers between particles and grid through the basis functions at the particles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -49,6 +50,14 @@ void scatter(const State& state, const std::vector<double>& weights, std::vector
     } while (p < count && first[p] == cell);
     for (std::size_t k = 0; k <= P; ++k) t[k] = sum[k];
   }
+}
+
+/// Σ_p m_p q_p N_i
+template <int P>
+void sum_weighted(const State& state, const std::vector<double>& data, std::vector<double>& sums) {
+  std::fill(sums.begin(), sums.end(), 0.0);
+  scatter<P>(state, state.basis.values, sums,
+             [mass = state.particles.mass.data(), q = data.data()](std::size_t p) { return mass[p] * q[p]; });
 }
 
 /// Σ_i w_i(x_p) field_i for one particle after the other.

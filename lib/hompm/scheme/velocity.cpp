@@ -11,10 +11,14 @@ void divide_by_mass(const std::vector<double>& field, const std::vector<double>&
   for (std::size_t i = 0; i < count; ++i) result[i] = m[i] > 0.0 ? q[i] / m[i] : 0.0;
 }
 
-void velocity_of(const State& state, const std::vector<double>& momentum, std::vector<double>& velocity) {
+double velocity_of(const State& state, const std::vector<double>& momentum, std::vector<double>& velocity) {
+  double reaction = 0.0;
+  if (state.ends.left == End::fixed) reaction -= momentum.front();
+  if (state.ends.right == End::fixed) reaction -= momentum.back();
   divide_by_mass(momentum, state.fields.mass, velocity);
   if (state.ends.left == End::fixed) velocity.front() = 0.0;
   if (state.ends.right == End::fixed) velocity.back() = 0.0;
+  return reaction;
 }
 
 void accelerate_lumped(State& state) {

@@ -6,6 +6,7 @@
 #include <hompm/plan/plan.hpp>
 #include <hompm/scheme/least_squares.hpp>
 #include <hompm/scheme/reconstruction.hpp>
+#include <hompm/scheme/transfer.hpp>
 
 namespace hompm::detail {
 
@@ -19,14 +20,6 @@ void accelerate_lumped(State& state);
 /// Impulses over M_i, in place; nothing at fixed ends. Returns the impulses that hold these.
 double divide_impulses(const State& state, std::vector<double>& field);
 
-/// Σ_p m_p q_p N_i
-template <int P>
-void sum_weighted(const State& state, const std::vector<double>& data, std::vector<double>& sums) {
-  std::fill(sums.begin(), sums.end(), 0.0);
-  scatter<P>(state, state.basis.values, sums,
-             [mass = state.particles.mass.data(), q = data.data()](std::size_t p) { return mass[p] * q[p]; });
-}
-
 /// Σ_p m_p v_p N_i
 template <int P>
 void sum_momentum(State& state) {
@@ -34,17 +27,15 @@ void sum_momentum(State& state) {
 }
 
 /// The momenta of all functions, as Σ_p m_p q_p N_i, over M_i; functions with no mass and fixed ends stand
-/// still.
-void velocity_of(const State& state, const std::vector<double>& momentum, std::vector<double>& velocity);
+/// still. Returns the impulses that hold these, kg/(m s).
+double velocity_of(const State& state, const std::vector<double>& momentum, std::vector<double>& velocity);
 
 /// v_i = Σ_p m_p v_p N_i / M_i
 template <int P>
-void project_lumped(State& state) {
+double project_lumped(State& state) {
   sum_momentum<P>(state);
-  velocity_of(state, state.fields.momentum, state.fields.velocity);
+  return velocity_of(state, state.fields.momentum, state.fields.velocity);
 }
-
-double kinetic_energy(const Particles& particles);
 
 template <int P>
 void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
@@ -65,16 +56,63 @@ void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstructio
   });
 }
 
+/// Of the impulses that hold fixed ends in the projection, the share that the particles take with the
+/// velocity of the grid.
+inline double share_of_reaction(const SchemeChoices& choices) {
+  switch (choices.transfer) {
+    case Transfer::flip:
+      return 1.0 - choices.flip_fraction;
+    case Transfer::xpic:
+      return 0.0;  // the filter books its own
+    default:
+      return 1.0;
+  }
+}
+
+/// The projection of particle data to the grid.
 template <int P>
 void join_projection(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines,
-                     const std::shared_ptr<LeastSquares<P>>& least_squares) {
+                     const std::shared_ptr<LeastSquares<P>>& least_squares,
+                     const std::shared_ptr<AffineVelocity<P>>& affine) {
+  if (affine) {
+    builder.project = [affine](const State& state, const auto& data, auto& field) {
+      affine->sum_momentum(state, data, field);
+      return velocity_of(state, field, field);
+    };
+    return;
+  }
   switch (builder.scene.scheme.choices.velocity_projection) {
     case VelocityProjection::lumped:
-      builder.add(Phase::velocity, "grid velocity, lumped mass", project_lumped<P>);
       builder.project = [](const State& state, const auto& data, auto& field) {
         sum_weighted<P>(state, data, field);
-        velocity_of(state, field, field);
+        return velocity_of(state, field, field);
       };
+      return;
+    case VelocityProjection::consistent:
+      builder.project = [splines](const State&, const auto& data, auto& field) {
+        splines->weighted_integrals(data, field);
+        splines->solve(field);
+        return 0.0;
+      };
+      return;
+    case VelocityProjection::least_squares:
+      builder.project = [least_squares](const State& state, const auto& data, auto& field) {
+        return least_squares->project(state, data, field);
+      };
+  }
+}
+
+/// MUSL: the particles, which the forces have pushed, say how fast the grid is.
+template <int P>
+void join_velocity_of_particles(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
+  const double share = share_of_reaction(builder.scene.scheme.choices);
+  switch (builder.scene.scheme.choices.velocity_projection) {
+    case VelocityProjection::lumped:
+      if (share > 0.0)
+        builder.add(Phase::velocity, "grid velocity, lumped mass",
+                    [share](State& state) { state.balance.impulse += share * project_lumped<P>(state); });
+      else
+        builder.add(Phase::velocity, "grid velocity, lumped mass", project_lumped<P>);
       return;
     case VelocityProjection::consistent:
       builder.add(Phase::velocity, "grid velocity, consistent mass", [splines](State& state) {
@@ -83,51 +121,62 @@ void join_projection(PlanBuilder& builder, const std::shared_ptr<Reconstruction>
         g.velocity = g.momentum;
         splines->solve(g.velocity);
       });
-      builder.project = [splines](const State&, const auto& data, auto& field) {
-        splines->weighted_integrals(data, field);
-        splines->solve(field);
-      };
       return;
     case VelocityProjection::least_squares:
-      builder.add(Phase::velocity, "grid velocity, least squares", [least_squares](State& state) {
-        state.balance.impulse +=
-            least_squares->project(state, state.particles.velocity, state.fields.velocity);
-      });
-      builder.project = [least_squares](const State& state, const auto& data, auto& field) {
-        least_squares->project(state, data, field);
-      };
+      builder.add(
+          Phase::velocity, "grid velocity, least squares", [share, project = builder.project](State& state) {
+            state.balance.impulse += share * project(state, state.particles.velocity, state.fields.velocity);
+          });
   }
 }
 
-/// v_p = Σ N_i v_i: nothing of the particle velocity is hidden from the grid. What that takes of Σ ½ m v² is
-/// booked as dissipated.
+/// USL and USF: v_i = P(v_p − κ Σ N_j a_j)_i + κ a_i. The velocities before the kick go to the grid, which
+/// takes the kick whole.
 template <int P>
-void join_pic(PlanBuilder& builder) {
-  builder.add(Phase::velocity, "particle velocity (PIC)", [](State& state) {
-    Particles& particles = state.particles;
-    const double before = kinetic_energy(particles);
-    const std::size_t count = particles.size();
-    double* velocity = particles.velocity.data();
-    const Gather<P> projected(state, state.basis.values, state.fields.velocity);
-    for (std::size_t p = 0; p < count; ++p) velocity[p] = projected(p);
-    state.balance.dissipated += before - kinetic_energy(particles);
-  });
+void join_velocity_after_kick(PlanBuilder& builder) {
+  const auto before = std::make_shared<std::vector<double>>(builder.state.particles.size());
+  builder.add(
+      Phase::velocity, "grid velocity before the kick, and the kick",
+      [before, share = share_of_reaction(builder.scene.scheme.choices),
+       project = builder.project](State& state) {
+        *before = state.particles.velocity;
+        GridFields& g = state.fields;
+        add_at_particles<P>(state, -state.kick, g.acceleration, *before);
+        state.balance.impulse += share * project(state, *before, g.velocity);
+        for (std::size_t i = 0; i < g.velocity.size(); ++i) g.velocity[i] += state.kick * g.acceleration[i];
+      },
+      "per particle: velocity before the kick");
+}
+
+/// How ∫ρ v N_i of the grid velocity is found where the projection has not summed it up.
+template <int P>
+void join_momentum(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
+  const SchemeChoices& choices = builder.scene.scheme.choices;
+  const bool least_squares = choices.velocity_projection == VelocityProjection::least_squares;
+  if (!least_squares && choices.sequence == Sequence::musl) return;
+  if (needs_density(choices))
+    builder.update_momentum = [splines](State& state) {
+      splines->momentum(state.fields.velocity, state.fields.momentum);
+    };
+  else if (least_squares)
+    builder.update_momentum = sum_momentum<P>;
+  else
+    builder.update_momentum = [](State& state) {
+      GridFields& g = state.fields;
+      for (std::size_t i = 0; i < g.mass.size(); ++i) g.momentum[i] = g.mass[i] * g.velocity[i];
+    };
 }
 
 template <int P>
 void join_velocity(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines,
-                   const std::shared_ptr<LeastSquares<P>>& least_squares) {
-  const SchemeChoices& choices = builder.scene.scheme.choices;
+                   const std::shared_ptr<AffineVelocity<P>>& affine) {
   join_acceleration<P>(builder, splines);
-  join_projection<P>(builder, splines, least_squares);
-  if (choices.transfer == Transfer::pic) join_pic<P>(builder);
-  if (choices.velocity_projection != VelocityProjection::least_squares) return;
-  if (choices.acceleration_mass == MassForm::consistent)
-    builder.update_momentum = [splines](State& state) {
-      splines->momentum(state.fields.velocity, state.fields.momentum);
-    };
+  if (builder.scene.scheme.choices.sequence == Sequence::musl)
+    join_velocity_of_particles<P>(builder, splines);
   else
-    builder.update_momentum = sum_momentum<P>;
+    join_velocity_after_kick<P>(builder);
+  join_transfer<P>(builder, affine);
+  join_momentum<P>(builder, splines);
 }
 
 }  // namespace hompm::detail

@@ -94,7 +94,8 @@ double CriticalStep::of_linearised() {
 
 bool moving_free_end(const Scene& scene) {
   const bool free = scene.ends.left == End::free || scene.ends.right == End::free;
-  return free && scene.kinematics == Kinematics::finite;
+  return free && scene.kinematics == Kinematics::finite &&
+         scene.scheme.choices.formulation == Formulation::updated_lagrangian;
 }
 
 double critical_time_step(const Scene& scene) {

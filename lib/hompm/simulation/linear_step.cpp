@@ -14,13 +14,25 @@ Scene linear_scene(const Scene& scene) {
   linear.bodies.clear();
   linear.initial_velocity.reset();
   linear.scheme.relaxation_rate = 0.0;
+  if (linear.scheme.choices.sequence == Sequence::usf) linear.scheme.choices.sequence = Sequence::musl;
   return linear;
+}
+
+/// What a unit of the gradient of the displacement, over the configuration that the basis lives on, adds to
+/// the stress (Pa).
+template <class Law>
+double stiffness(const Law& law, const SchemeChoices& choices, double stress, double stretch) {
+  if (choices.stress_update == StressUpdate::from_positions) return law.tangent(stretch);
+  const double per_strain = choices.stress_update == StressUpdate::incremental
+                                ? law.modulus(stress, stretch)
+                                : stretch * law.tangent(stretch);
+  return choices.formulation == Formulation::total_lagrangian ? per_strain / stretch : per_strain;
 }
 
 }  // namespace
 
 LinearStep::LinearStep(const Scene& scene)
-    : from_positions_(scene.scheme.choices.stress_update == StressUpdate::from_positions),
+    : choices_(scene.scheme.choices),
       material_(make_material(scene.material)),
       youngs_modulus_(scene.material.youngs_modulus),
       simulation_(linear_scene(scene), 1.0),
@@ -47,22 +59,25 @@ void LinearStep::take(const State& at, double left, double right) {
   const double grid_right = at.grid.breakpoint(at.grid.cells());
   State& state = simulation_.state();
   Particles& p = state.particles;
+  const bool total = choices_.formulation == Formulation::total_lagrangian;
+  const auto& positions = total ? at.particles.reference_position : at.particles.position;
+  const auto& volumes = total ? at.particles.reference_volume : at.particles.volume;
+  // Where an end stays, rounding must not carry it out of the grid.
+  const auto moved = [&](double x) { return std::clamp(stretch * x + shift, grid_left, grid_right); };
   for (std::size_t i = 0; i < p.size(); ++i) {
-    // Where an end stays, rounding must not carry it out of the grid.
-    p.position[i] = std::clamp(stretch * at.particles.position[i] + shift, grid_left, grid_right);
-    p.volume[i] = stretch * at.particles.volume[i];
+    p.position[i] = moved(positions[i]);
+    p.volume[i] = stretch * volumes[i];
     p.mass[i] = stretch * at.particles.mass[i];
-    p.reference_density[i] = at.density(i);
+    p.reference_density[i] = total ? at.particles.reference_density[i] : at.density(i);
   }
+  for (std::size_t i = 0; i < p.right_end.size(); ++i) p.right_end[i] = moved(at.particles.right_end[i]);
   state.left_boundary = left;
   state.right_boundary = right;
   std::visit(
       [&](const auto& law) {
         for (std::size_t i = 0; i < p.size(); ++i) {
-          const double lambda = at.particles.stretch[i];
-          const double slope =
-              from_positions_ ? law.tangent(lambda) : law.modulus(at.particles.stress[i], lambda);
-          stiffening_[i] = slope / youngs_modulus_;
+          const Particles& now = at.particles;
+          stiffening_[i] = stiffness(law, choices_, now.stress[i], now.stretch[i]) / youngs_modulus_;
         }
       },
       material_);
@@ -71,10 +86,25 @@ void LinearStep::take(const State& at, double left, double right) {
 
 void LinearStep::apply(const std::vector<double>& stress, std::vector<double>& result) {
   State& state = simulation_.state();
-  const Plan& plan = simulation_.plan();
   Particles& p = state.particles;
   std::fill(p.velocity.begin(), p.velocity.end(), 0.0);
   p.stress = stress;
+  run_step();
+  for (std::size_t i = 0; i < stiffening_.size(); ++i) result[i] = p.stress[i] * stiffening_[i];
+  if (choices_.sequence != Sequence::usl) return;
+
+  for (double& r : result) r *= 2.0;
+  if (choices_.transfer != Transfer::flip || choices_.flip_fraction < 1.0) return;
+  std::fill(p.stress.begin(), p.stress.end(), 0.0);
+  run_step();
+  for (std::size_t i = 0; i < stiffening_.size(); ++i) result[i] -= p.stress[i] * stiffening_[i];
+}
+
+void LinearStep::run_step() {
+  State& state = simulation_.state();
+  const Plan& plan = simulation_.plan();
+  Particles& p = state.particles;
+  std::fill(p.velocity_gradient.begin(), p.velocity_gradient.end(), 0.0);
   for (const Phase phase : {Phase::end_stress, Phase::internal_force, Phase::acceleration, Phase::velocity})
     plan.run(phase, state);
   // From rest, so that the motion leaves its own stress alone, whether it adds to the stress or sets it.
@@ -82,7 +112,6 @@ void LinearStep::apply(const std::vector<double>& stress, std::vector<double>& r
   std::fill(p.stretch.begin(), p.stretch.end(), 1.0);
   std::fill(p.stress.begin(), p.stress.end(), 0.0);
   plan.run(Phase::motion, state);
-  for (std::size_t i = 0; i < stiffening_.size(); ++i) result[i] = p.stress[i] * stiffening_[i];
 }
 
 }  // namespace hompm

@@ -13,6 +13,10 @@ namespace hompm {
 /// from stress to stress, with all time steps 1, has the eigenvalues −ω² of the modes (derived in
 /// docs/stability.md). Without effects and relaxation. Of stresses, because particles do not feel what is
 /// left undetermined on the grid: the function on a cut span that holds no particle.
+///
+/// With USL the kick goes straight to the grid, K, and once more through the particles, K': the step ends
+/// where 2 K − K' does what K does with MUSL, and where the transfer damps, no later than with 2 K. USF has
+/// the eigenvalues of MUSL.
 class LinearStep {
  public:
   /// Throws as `Simulation`.
@@ -36,7 +40,10 @@ class LinearStep {
   /// The configuration, stretched so that the body reaches from `left` to `right`.
   void take(const State& state, double left, double right);
 
-  bool from_positions_;
+  /// Forces of the stress, velocities, and the stress of the motion alone.
+  void run_step();
+
+  SchemeChoices choices_;
   Material material_;
   double youngs_modulus_;
   Simulation simulation_;

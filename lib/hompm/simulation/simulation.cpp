@@ -20,7 +20,7 @@ constexpr std::array start_phases{Phase::geometry, Phase::end_stress, Phase::int
 
 void check_particle_count(const SchemeSpec& scheme) {
   const SchemeChoices& c = scheme.choices;
-  if (c.quadrature == Quadrature::particles && c.stress_update == StressUpdate::incremental) return;
+  if (c.quadrature == Quadrature::particles && c.stress_update != StressUpdate::from_positions) return;
   const int particles = scheme.cells * scheme.particles_per_cell;
   const bool quintic = c.quadrature == Quadrature::reconstructed_exact && scheme.degree > 3;
   const int fewest = (quintic ? 6 : 2) - (c.markers ? 2 : 0);  // sites of a spline
@@ -101,6 +101,10 @@ double Simulation::closing_kick() const {
 }
 
 void Simulation::run(std::span<const Phase> phases, std::vector<State>& states) const {
+  if (states.size() == 1) {  // what a single body does not need costs it nothing
+    for (const Phase phase : phases) plans_.front().run(phase, states.front());
+    return;
+  }
   for (const Phase phase : phases) {
     const Plan* plan = plans_.data();
     for (State& state : states) (plan++)->run(phase, state);
@@ -112,7 +116,7 @@ void Simulation::run(std::span<const Phase> phases, std::vector<State>& states) 
 void Simulation::run_geometry(std::vector<State>& states) const {
   const Plan* plan = plans_.data();
   for (State& state : states) {
-    if (state.moves) plan->run(Phase::geometry, state);
+    if (state.basis_moves) plan->run(Phase::geometry, state);
     ++plan;
   }
 }

@@ -6,7 +6,9 @@
 namespace hompm::detail {
 
 StepWatch::StepWatch(const Scene& scene)
-    : moves_(scene.kinematics == Kinematics::finite), bodies_(bodies_of(scene)) {
+    : moves_(scene.kinematics == Kinematics::finite),
+      total_(scene.scheme.choices.formulation == Formulation::total_lagrangian),
+      bodies_(bodies_of(scene)) {
   for (const Scene* body : bodies_) materials_.push_back(make_material(body->material));
 }
 
@@ -16,7 +18,9 @@ double StepWatch::fastest_wave(const std::vector<State>& states) const {
     std::visit(
         [&, &p = states[body].particles](const auto& law) {
           for (std::size_t i = 0; i < p.size(); ++i)
-            largest = std::max(largest, law.modulus(p.stress[i], p.stretch[i]) / states[body].density(i));
+            largest =
+                std::max(largest, total_ ? law.tangent(p.stretch[i]) / p.reference_density[i]
+                                         : law.modulus(p.stress[i], p.stretch[i]) / states[body].density(i));
         },
         materials_[body]);
   return std::sqrt(largest);

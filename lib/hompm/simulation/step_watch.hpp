@@ -17,7 +17,7 @@ class StepWatch {
   /// The scene must outlive it.
   explicit StepWatch(const Scene& scene);
 
-  /// Speed of the fastest waves in the bodies, m/s: √(dσ/dε / ρ).
+  /// Speed of the fastest waves in the bodies, m/s: √(dσ/dε / ρ), total Lagrangian √(dσ/dλ / ρ0).
   [[nodiscard]] double fastest_wave(const std::vector<State>& states) const;
 
   /// After each step.
@@ -25,6 +25,7 @@ class StepWatch {
 
  private:
   bool moves_;
+  bool total_;  ///< waves over the reference configuration count
   std::vector<const Scene*> bodies_;
   std::vector<Material> materials_;
   std::vector<CriticalStep> critical_;  ///< of each body; empty before the first check
