@@ -26,6 +26,7 @@ import tomllib
 sys.dont_write_bytecode = True
 import high_order_tables  # noqa: E402
 import stability_limits  # noqa: E402
+import verification_tables  # noqa: E402
 from table_tools import ROOT, Tools, error_of, order, settled_scene, short, table  # noqa: E402
 
 SCHEMES = ["classical", "bspline", "tielen2017", "high-order"]  # those that stand side by side in the tables of the benchmarks
@@ -426,12 +427,20 @@ PARTS = {
     "effect-line": source("lib/hompm/effects/catalogue.cmake", "cmake", "  mass_damping", "  mass_damping"),
     "effect-scene": source("docs/scenes/mass-damping.toml", "toml"),
     "effect-test": source("tests/verification/effects_test.cpp", "cpp", "TEST_CASE(\"mass-proportional damping", "}"),
+    "scheme-choice": source("lib/hompm/scene/scheme_choices.hpp", "cpp", "enum class Basis", "};"),
+    "scheme-key": source("lib/hompm/scene_file/keys.cpp", "cpp", "      {\"scheme.basis\"", "       [](Scene& scene) -> Slot { return &scene.scheme.choices.basis; }},"),
+    "scheme-conflicts": source("lib/hompm/scene_file/complete.cpp", "cpp", "  const bool domains =", "              of_hats + \"cells` must be at least 3\");"),
+    "scheme-stage": source("lib/hompm/scheme/join_scheme.cpp", "cpp", "  if (choices.basis == Basis::splines)", "                [basis = choices.basis](State& state) { detail::evaluate_domains(state, basis); });"),
+    "scheme-formula": source("lib/hompm/scheme/particle_domains.hpp", "cpp", "/// Values and gradients of the hat functions over a domain", "}"),
+    "scheme-row": source("lib/hompm/scheme/scheme_table.cpp", "cpp", "      {.name = \"ugimp\"", "       .choices = {.basis = Basis::contiguous_domains}},"),
+    "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
     "outside-effect": source("tests/package/drag.cpp", "cpp"),
     "mistake": mistake, "guards": guards, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,
+    **verification_tables.parts([row["name"] for row in scheme_rows()]),
     **high_order_tables.PARTS, **high_order_tables.SLOW_PARTS,
 }
 SLOW_PARTS = list(high_order_tables.SLOW_PARTS)
