@@ -32,6 +32,7 @@
 
 #include "common.hpp"
 #include "comparison_text.hpp"
+#include "key_reference.hpp"
 #include "listing.hpp"
 #include "progress.hpp"
 #include "scene_choice.hpp"
@@ -65,7 +66,8 @@ po::options_description make_options() {
       "resume", text("FILE"), "go on from a checkpoint, in its folder unless --output is given")(
       "trace", text("FILE"), "write a hash of every field after every stage, for hompm-diff --trace")(
       "trace-values", text("STEP"), "with --trace: write all values from step STEP on (default 0), too")(
-      "list", "list cases, schemes, materials and effects");
+      "list", "list cases, schemes, materials and effects")(
+      "keys", "print every key of a scene: unit, range, default, meaning; with --json for programs");
   return options;
 }
 
@@ -202,6 +204,10 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
 int run(const po::variables_map& given) {
   if (given.count("list")) {
     std::cout << hompm::cli::catalogue_text();
+    return hompm::cli::success;
+  }
+  if (given.count("keys")) {
+    std::cout << (given.count("json") ? hompm::cli::key_json() : hompm::cli::key_text());
     return hompm::cli::success;
   }
   std::optional<hompm::Checkpoint> from;

@@ -383,6 +383,50 @@ def plan(tools):
     return ["```text", *tools.text("--case", "column", "--explain").rstrip().split("\n"), "```"]
 
 
+# What the meaning of a key in docs/scenes.md points at.
+MORE = {
+    "material.law": "[formulas](method.md#materials)", "rest.speed": "[rest](method.md#rest)", "scheme.name": "[schemes](schemes.md)",
+    "scheme.basis": "[bases](schemes.md#bases)", "scheme.formulation": "[total Lagrangian](schemes.md#total-lagrangian)",
+    "scheme.sequence": "[sequences](schemes.md#sequences)", "scheme.transfer": "[transfers](schemes.md#transfers)",
+    "scheme.step_fraction": "[critical step](stability.md)", "scheme.time_integrator": "[kicks and drifts](high-order.md#kicks-and-drifts)",
+    "gravity": "[effects](method.md#effects)", "traction": "[effects](method.md#effects)", "piston": "[held ends](method.md#held-ends)",
+    "wall": "[held ends](method.md#held-ends)", "absorbing": "[held ends](method.md#held-ends)",
+    "contact": "[several bodies](method.md#several-bodies)", "interface": "[several bodies](method.md#several-bodies)",
+}
+
+
+def key_cells(key):
+    """Unit, values, default and meaning of a key, as `hompm-run --keys --json` has it."""
+    values = ", ".join(f"`{word}`" for word in key["words"]) or key["range"]
+    if key["type"] == "integer":
+        values = f"whole, {values}" if values else "whole"
+    if key["condition"]:
+        values = f"{values}; {key['condition']}" if values else key["condition"]
+    default = "**required**" if key["required"] else f"`{key['default']}`" if re.fullmatch(r'".*"|[0-9.]+|true|false', key["default"]) else key["default"]
+    meaning = f"{key['meaning']}: {MORE[key['path']]}" if key["path"] in MORE else key["meaning"]
+    return [key["unit"], values, default, meaning]
+
+
+def keys(tools):
+    """Every key outside [[effect]]."""
+    rows, before = [], ""
+    for key in json.loads(tools.text("--keys", "--json"))["keys"]:
+        parent, _, name = key["path"].rpartition(".")
+        rows.append([(f"**[{parent}]** " if parent != before else "") + f"`{name}`", *key_cells(key)])
+        before = parent
+    return table(["key", "unit", "values", "default", "meaning"], rows)
+
+
+def effect_keys(tools):
+    """Every effect and its parameters."""
+    rows = []
+    for effect in json.loads(tools.text("--keys", "--json"))["effects"]:
+        more = f": {MORE[effect['name']]}" if effect["name"] in MORE else ""
+        rows.append([f"`{effect['name']}`", "", "", "", "", effect["meaning"] + more])
+        rows += [["", f"`{key['path']}`", *key_cells(key)] for key in effect["parameters"]]
+    return table(["effect", "parameter", "unit", "values", "default", "meaning"], rows)
+
+
 def mistake(tools):
     """What the mistake in docs/scenes.md leads to."""
     return ["```text", *tools.complaint("--case", "bar", "--set", "scheme.cels=32").rstrip().split("\n"), "```"]
@@ -436,7 +480,7 @@ PARTS = {
     "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
     "outside-effect": source("tests/package/drag.cpp", "cpp"),
-    "mistake": mistake, "guards": guards, "parting": parting,
+    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,

@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <hompm/effects/registry.hpp>
+#include <hompm/scene_file/reader.hpp>
+
 #include "support/catch.hpp"
 #include "support/run_command.hpp"
 
@@ -128,6 +131,16 @@ TEST_CASE("listing, explaining, help and version run nothing") {
   CHECK_THAT(explain.out, contains("effects absent: traction, mass-damping, local-damping"));
   CHECK_THAT(run_command(here + tool + " --case bar --explain").out,
              !contains("gravity:") && !contains("external force"));
+  const auto keys = run_command(here + tool + " --keys");
+  CHECK(keys.exit_code == 0);
+  for (const char* part : {"body.length [m]: number, > 0; must be given\n",
+                           "output.snapshots: whole number, 1 … 10000; default: 10\n",
+                           "rest.speed [m/s]: number, > 0; must be given where [rest] is\n",
+                           "  end: left, right; default: \"left\"\n"})
+    CHECK_THAT(keys.out, contains(part));
+  const auto reference = nlohmann::json::parse(run_command(here + tool + " --keys --json").out);
+  CHECK(reference["keys"].size() == hompm::scene_keys().size());
+  CHECK(reference["effects"].size() == hompm::effect_catalogue().size());
   CHECK_THAT(run_command(here + tool + " --help").out, contains("usage: hompm-run"));
   CHECK_THAT(run_command(here + tool + " --version").out, contains("hompm-run 0."));
   CHECK(fs::is_empty(scratch.path()));

@@ -93,7 +93,7 @@ EffectType manufactured() {
   return {
       .name = "manufactured",
       .meaning = "body force and start for which u = G sin(pi X/L) sin(pi c t/L): for studies of convergence",
-      .parameters = {{.name = "amplitude", .unit = "m", .meaning = "G"}},
+      .parameters = {{.name = "amplitude", .unit = "m", .meaning = "G, below length/pi"}},
       .join = join,
       .conflict = conflict,
       .prepare = prepare};

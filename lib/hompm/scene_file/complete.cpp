@@ -157,13 +157,12 @@ void check_choices(Reading& reading) {
 }
 
 void check_particle_count(Reading& reading) {
-  constexpr std::int64_t most = 100'000'000;
   const std::int64_t particles =
       std::int64_t{reading.scene.scheme.cells} * std::int64_t{reading.scene.scheme.particles_per_cell};
-  if (particles <= most) return;
+  if (particles <= most_particles) return;
   reading.report(reading.said.where("scheme.cells"),
-                 "`scheme.cells` times `scheme.particles_per_cell` must be at most " + std::to_string(most) +
-                     " particles, not " + std::to_string(particles));
+                 "`scheme.cells` times `scheme.particles_per_cell` must be at most " +
+                     std::to_string(most_particles) + " particles, not " + std::to_string(particles));
 }
 
 void check_time_step(Reading& reading) {

@@ -10,8 +10,6 @@ namespace hompm {
 namespace detail {
 namespace {
 
-constexpr double largest_int = std::numeric_limits<int>::max();
-
 ValueRule number(const std::string& unit) { return {.type = ValueType::number, .unit = unit}; }
 
 ValueRule positive(const std::string& unit) {
@@ -32,13 +30,32 @@ std::vector<std::string> scheme_names() {
   return names;
 }
 
-std::string degree_range() {
-  std::string text;
+/// "1 with classical, ugimp; 2 with bspline", by what `of_scheme` says of each.
+template <class Word>
+std::string by_scheme(Word of_scheme) {
+  std::vector<std::pair<std::string, std::string>> names;  // by what is said
   for (const Scheme& scheme : scheme_table()) {
-    text += (text.empty() ? "" : "; ") + scheme.name + ": " + std::to_string(scheme.lowest_degree) + " … " +
-            std::to_string(scheme.highest_degree);
+    const auto same =
+        std::ranges::find(names, of_scheme(scheme), &std::pair<std::string, std::string>::first);
+    if (same == names.end())
+      names.emplace_back(of_scheme(scheme), scheme.name);
+    else
+      same->second += ", " + scheme.name;
   }
+  std::string text;
+  for (const auto& [said, of] : names) text += (text.empty() ? "" : "; ") + said + " with " + of;
   return text;
+}
+
+std::string default_degrees() {
+  return by_scheme([](const Scheme& scheme) { return std::to_string(scheme.default_degree); });
+}
+
+std::string degree_ranges() {
+  return by_scheme([](const Scheme& scheme) {
+    return range_text(
+        whole(static_cast<double>(scheme.lowest_degree), static_cast<double>(scheme.highest_degree)));
+  });
 }
 
 std::vector<KeyRow> make_key_table() {
@@ -46,9 +63,10 @@ std::vector<KeyRow> make_key_table() {
   const ValueRule text = any(ValueType::text);
   const ValueRule end = word({"fixed", "free"});  // in the order of the enumeration
   const std::string own = "the scheme's own";
-  const std::string one_of = "exactly one of time_step, courant, step_fraction must be given";
+  const std::string one_of = "give exactly one of time_step, courant, step_fraction";
+  const std::string particles = "at most " + std::to_string(most_particles) + " particles in all";
   return {
-      {"case", text, derived, "the name of the file", "", "what the scene is called",
+      {"case", text, derived, "name of the file", "", "what the scene is called",
        [](Scene& scene) -> Slot { return &scene.case_name; }},
       {"variant", text, standard, "\"\"", "", "which of several scenes of one case",
        [](Scene& scene) -> Slot { return &scene.variant; }},
@@ -56,13 +74,13 @@ std::vector<KeyRow> make_key_table() {
        [](Scene& scene) -> Slot { return &scene.title; }},
       {"end_time", positive("s"), missing, "", "", "when the run ends",
        [](Scene& scene) -> Slot { return &scene.end_time; }},
-      {"kinematics", word({"infinitesimal", "finite"}), derived,
-       "infinitesimal with the law linear, else finite", "one of infinitesimal, finite, as the law demands",
-       "whether positions and volumes change", [](Scene& scene) -> Slot { return &scene.kinematics; }},
+      {"kinematics", word({"infinitesimal", "finite"}), derived, "as the law demands",
+       "infinitesimal with the law linear, finite with the others", "whether positions and volumes change",
+       [](Scene& scene) -> Slot { return &scene.kinematics; }},
 
       {"body.length", positive("m"), missing, "", "", "length of the undeformed body",
        [](Scene& scene) -> Slot { return &scene.body.length; }},
-      {"body.start", number("m"), derived, "at the origin", "", "where its left end is at t = 0",
+      {"body.start", number("m"), derived, "at the origin, 0", "", "where its left end is at t = 0",
        [](Scene& scene) -> Slot { return &scene.body.start; }},
 
       {"material.law", word({"linear", "rate", "hencky", "neo-hookean"}), missing, "", "", "constitutive law",
@@ -73,25 +91,27 @@ std::vector<KeyRow> make_key_table() {
        [](Scene& scene) -> Slot { return &scene.material.youngs_modulus; }},
 
       {"initial.velocity.shape", word({"sine", "uniform", "linear"}), missing, "", "",
-       "velocity at the start: amplitude · sin(mode π X / length), amplitude, amplitude + gradient · X; X "
-       "from the "
-       "left end",
+       "velocity at the start: amplitude · sin(mode π X/length), amplitude, amplitude + gradient · X; X from "
+       "the left end",
        [](Scene& scene) -> Slot { return &scene.initial_velocity->shape; }},
-      {"initial.velocity.amplitude", number("m/s"), missing, "", "", "largest velocity at the start",
+      {"initial.velocity.amplitude", number("m/s"), missing, "", "", "of the velocity at the start",
        [](Scene& scene) -> Slot { return &scene.initial_velocity->amplitude; }},
-      {"initial.velocity.mode", whole(1.0, largest_int), standard, "1", "", "half waves over the body",
+      {"initial.velocity.mode", whole(1.0, 1e6), standard, "1", "", "half waves over the body",
        [](Scene& scene) -> Slot { return &scene.initial_velocity->mode; }},
-      {"initial.velocity.gradient", number("1/s"), derived, "", "", "of the shape linear",
-       [](Scene& scene) -> Slot { return &scene.initial_velocity->gradient; }},
+      {"initial.velocity.gradient", number("1/s"), derived, "", "with the shape linear, and only there",
+       "of the velocity along X", [](Scene& scene) -> Slot { return &scene.initial_velocity->gradient; }},
 
       {"ends.left", end, standard, "\"fixed\"", "", "the end at X = 0",
        [](Scene& scene) -> Slot { return &scene.ends.left; }},
       {"ends.right", end, standard, "\"fixed\"", "", "the end at X = length",
        [](Scene& scene) -> Slot { return &scene.ends.right; }},
 
-      {"grid.from", number("m"), derived, "", "", "the grid reaches from here, on the side of a free end",
+      {"grid.from", number("m"), derived, "by scheme.margin_cells",
+       "degree + 1 cells beyond a free left end, or more",
+       "the grid reaches from here at least: for bodies that fly",
        [](Scene& scene) -> Slot { return &scene.grid.from; }},
-      {"grid.to", number("m"), derived, "", "", "the grid reaches up to here, on the side of a free end",
+      {"grid.to", number("m"), derived, "by scheme.margin_cells",
+       "degree + 1 cells beyond a free right end, or more", "the grid reaches up to here at least",
        [](Scene& scene) -> Slot { return &scene.grid.to; }},
 
       {"rest.speed", positive("m/s"), missing, "", "",
@@ -101,26 +121,28 @@ std::vector<KeyRow> make_key_table() {
 
       {"scheme.name", word(scheme_names()), standard, "\"tielen2017\"", "", "how the scene is discretised",
        [](Scene& scene) -> Slot { return &scene.scheme.name; }},
-      {"scheme.degree", any(ValueType::integer), of_scheme, "that of the scheme", degree_range(),
+      {"scheme.degree", any(ValueType::integer), of_scheme, default_degrees(), degree_ranges(),
        "degree of the splines", [](Scene& scene) -> Slot { return &scene.scheme.degree; }},
-      {"scheme.cells", whole(1.0, 1e7), missing, "", "", "grid cells over the body",
+      {"scheme.cells", whole(1.0, 1e7), missing, "", particles, "grid cells over the body",
        [](Scene& scene) -> Slot { return &scene.scheme.cells; }},
-      {"scheme.particles_per_cell", whole(1.0, 1000.0), missing, "", "", "particles in each cell of the body",
+      {"scheme.particles_per_cell", whole(1.0, 1000.0), missing, "", particles,
+       "particles in each cell of the body",
        [](Scene& scene) -> Slot { return &scene.scheme.particles_per_cell; }},
       {"scheme.margin_cells",
        {.type = ValueType::integer, .maximum = 1e7},
        of_scheme,
        "a quarter of cells, at least degree + 2",
-       "≥ degree + 1, ≤ 10000000",
+       "≥ degree + 1",
        "grid cells beyond a free end",
        [](Scene& scene) -> Slot { return &scene.scheme.margin_cells; }},
-      {"scheme.time_step", positive("s"), derived, "", "", "the step; " + one_of,
+      {"scheme.time_step", positive("s"), derived, "", one_of,
+       "the step, shortened so that a whole number of them ends at end_time",
        [](Scene& scene) -> Slot { return &scene.scheme.time_step; }},
-      {"scheme.courant", positive(""), derived, "", "",
-       "the step over the time a wave takes through a cell; " + one_of,
+      {"scheme.courant", positive(""), derived, "", one_of,
+       "the step over the time a wave takes through a cell, c Δt/h",
        [](Scene& scene) -> Slot { return &scene.scheme.courant; }},
-      {"scheme.step_fraction", positive(""), derived, "", "",
-       "the step over the largest stable step of the scheme; " + one_of,
+      {"scheme.step_fraction", positive(""), derived, "", one_of,
+       "the step over the largest stable step of the scheme",
        [](Scene& scene) -> Slot { return &scene.scheme.step_fraction; }},
       {"scheme.basis",
        word({"splines", "uniform-domains", "contiguous-domains", "carried-domains", "smoothed-gradients"}),
@@ -132,7 +154,7 @@ std::vector<KeyRow> make_key_table() {
       {"scheme.quadrature", word({"particles", "reconstructed", "reconstructed-exact"}), of_scheme, own, "",
        "where stress is integrated", [](Scene& scene) -> Slot { return &scene.scheme.choices.quadrature; }},
       {"scheme.acceleration_mass", word({"lumped", "consistent"}), of_scheme, own, "",
-       "mass by which forces are divided",
+       "by which forces are divided",
        [](Scene& scene) -> Slot { return &scene.scheme.choices.acceleration_mass; }},
       {"scheme.velocity_projection", word({"lumped", "consistent", "least-squares"}), of_scheme, own, "",
        "particle velocity to the grid",
@@ -147,21 +169,21 @@ std::vector<KeyRow> make_key_table() {
       {"scheme.flip_fraction",
        {.type = ValueType::number, .unit = "", .minimum = 0.0, .maximum = 1.0},
        of_scheme,
-       own,
-       "",
+       toml_number(SchemeChoices{}.flip_fraction),
+       "with the transfer flip",
        "part of the change of velocity in what particles take back; the rest is the velocity",
        [](Scene& scene) -> Slot { return &scene.scheme.choices.flip_fraction; }},
-      {"scheme.xpic_order", whole(1.0, 20.0), of_scheme, own, "",
-       "how often the filter of xpic is applied; 1 is pic",
+      {"scheme.xpic_order", whole(1.0, 20.0), of_scheme, std::to_string(SchemeChoices{}.xpic_order),
+       "with the transfer xpic", "how often its filter is applied; 1 is pic",
        [](Scene& scene) -> Slot { return &scene.scheme.choices.xpic_order; }},
       {"scheme.stress_update", word({"incremental", "from-stretch", "from-positions"}), of_scheme, own, "",
-       "stress by increments, of the stretch, or of the stretch of the positions",
+       "by increments, of the stretch that is summed up, or of the stretch of the positions",
        [](Scene& scene) -> Slot { return &scene.scheme.choices.stress_update; }},
       {"scheme.time_integrator", word({"euler-cromer", "leapfrog", "blanes-moan"}), of_scheme, own, "",
-       "of first, second, fourth order in the step",
-       [](Scene& scene) -> Slot { return &scene.scheme.choices.time_integrator; }},
+       "of order 1, 2, 4", [](Scene& scene) -> Slot { return &scene.scheme.choices.time_integrator; }},
       {"scheme.free_end", word({"particles", "cut-span", "extension"}), of_scheme, own, "",
-       "how a partly filled span is treated",
+       "how a partly filled span is treated: nothing special, integrated up to the end, its functions tied "
+       "to the others too",
        [](Scene& scene) -> Slot { return &scene.scheme.choices.free_end; }},
       {"scheme.markers", any(ValueType::boolean), of_scheme, own, "",
        "massless particles at the ends of the body",
@@ -177,7 +199,7 @@ std::vector<KeyRow> make_key_table() {
        "at which displacements that project to nothing on the grid decay; 0 leaves them",
        [](Scene& scene) -> Slot { return &scene.scheme.relaxation_rate; }},
       {"scheme.allow_unstable", any(ValueType::boolean), standard, "false", "",
-       "run with a step that is too large",
+       "run with a step above the critical one",
        [](Scene& scene) -> Slot { return &scene.scheme.allow_unstable; }},
 
       {"output.snapshots", whole(1.0, 10000.0), standard, "10", "",
@@ -234,18 +256,4 @@ std::vector<std::string> names_in(const std::string& path) {
 }
 
 }  // namespace detail
-
-const std::vector<SceneKey>& scene_keys() {
-  static const std::vector<SceneKey> keys = [] {
-    std::vector<SceneKey> all;
-    for (const detail::KeyRow& row : detail::key_table()) {
-      all.push_back({row.path, detail::type_name(row.rule.type), row.rule.unit,
-                     row.range.empty() ? detail::range_text(row.rule) : row.range, row.standard,
-                     row.meaning});
-    }
-    return all;
-  }();
-  return keys;
-}
-
 }  // namespace hompm

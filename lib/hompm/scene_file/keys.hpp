@@ -31,10 +31,13 @@ struct KeyRow {
   ValueRule rule;
   Absent absent;
   std::string standard;
-  std::string range;  ///< in words, where it depends on other keys; otherwise "" and the rule tells
+  std::string condition;  ///< what other keys demand of it beside the rule, in words; "" for nothing
   std::string meaning;
   Slot (*slot)(Scene&);
 };
+
+/// Of all bodies together; a key of its own would be out of range by another.
+constexpr std::int64_t most_particles = 100'000'000;
 
 /// All keys, in the order in which they are written.
 const std::vector<KeyRow>& key_table();

@@ -50,18 +50,25 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
 /// the same bytes.
 std::string scene_text(const Scene& scene);
 
-/// One key a scene file may hold, for the reference documentation and `--list`.
+/// One key a scene file may hold, as the reader knows it: for the reference documentation and `--keys`.
 struct SceneKey {
-  std::string path;      ///< "scheme.cells"
-  std::string type;      ///< number, integer, word, text, boolean
-  std::string unit;      ///< SI; "" for none
-  std::string range;     ///< "> 0", "1 … 5", "one of rate, …"
-  std::string standard;  ///< default as TOML text, or in words where it follows from other keys; "" for none
-  std::string meaning;
+  std::string path;                     ///< "scheme.cells"; of a parameter of an effect its name
+  std::string type;                     ///< number, integer, word, text, boolean
+  std::string unit;                     ///< SI; "" for none
+  std::string range;                    ///< "> 0", "1 … 5"; "" where anything of the type goes
+  std::vector<std::string> words = {};  ///< those allowed, of a word
+  std::string condition = {};           ///< what other keys demand of it, in words
+  bool required = false;                ///< must be given
+  std::string optional_table = {};      ///< the table it belongs to, where that may be left out altogether
+  std::string standard = {};  ///< default as TOML text, or in words where it follows from other keys
+  std::string meaning = {};
 };
 
-/// All keys outside `[[effect]]`, whose parameters are in the effect catalogue.
+/// All keys outside `[[effect]]`.
 const std::vector<SceneKey>& scene_keys();
+
+/// The parameters of an effect.
+std::vector<SceneKey> parameter_keys(const EffectType& effect);
 
 /// The candidate nearest to `word` in edit distance, or "" when none is near enough to be what was meant.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);

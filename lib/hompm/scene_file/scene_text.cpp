@@ -14,12 +14,6 @@ std::string line(const std::string& name, const std::string& value, const std::s
   return name + " = " + value + (unit.empty() ? "" : "  # " + unit) + '\n';
 }
 
-std::string value_text(const EffectSpec::Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return detail::toml_number(*number);
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
-  return detail::toml_string(std::get<std::string>(value));
-}
-
 std::string unit_of(const Scene& scene, const std::string& effect, const std::string& parameter) {
   for (const EffectType& type : effects_of(scene)) {
     if (type.name != effect) continue;
@@ -34,7 +28,7 @@ std::string effect_text(const Scene& scene, const EffectSpec& effect) {
   std::string text = "\n[[effect]]\n" + line("type", detail::toml_string(effect.type), "");
   if (effect.body) text += line("body", std::to_string(*effect.body), "");
   for (const auto& [name, value] : effect.parameters)
-    text += line(name, value_text(value), unit_of(scene, effect.type, name));
+    text += line(name, detail::toml_value(value), unit_of(scene, effect.type, name));
   return text;
 }
 

@@ -28,6 +28,12 @@ ValueRule rule_of(const EffectParameter& parameter) {
           parameter.words};
 }
 
+std::string toml_value(const EffectSpec::Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return toml_number(*number);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  return toml_string(std::get<std::string>(value));
+}
+
 std::string type_name(ValueType type) {
   switch (type) {
     case ValueType::number:
@@ -46,12 +52,13 @@ std::string type_name(ValueType type) {
 
 std::string range_text(const ValueRule& rule) {
   if (rule.type == ValueType::boolean) return "true, false";
-  if (rule.type == ValueType::word) return demand(rule);
+  if (rule.type == ValueType::word) return listed(rule.words);
   const bool below = std::isfinite(rule.minimum);
   const bool above = std::isfinite(rule.maximum);
   const std::string least = below ? bound_text(rule.minimum) : "";
   if (!above) return below ? (rule.minimum_excluded ? "> " : "≥ ") + least : "";
   const std::string most = bound_text(rule.maximum);
+  if (least == most) return least;
   if (!below) return "≤ " + most;
   return rule.minimum_excluded ? "> " + least + ", ≤ " + most : least + " … " + most;
 }

@@ -25,10 +25,13 @@ struct ValueRule {
 /// The rule of a parameter of an effect.
 ValueRule rule_of(const EffectParameter& parameter);
 
+/// The value of a parameter as TOML text.
+std::string toml_value(const EffectSpec::Value& value);
+
 /// "number", "integer", …
 std::string type_name(ValueType type);
 
-/// The range for a table of keys: "> 0", "1 … 5", "one of fixed, free"; "" where anything goes.
+/// The range for a table of keys: "> 0", "1 … 5", "fixed, free"; "" where anything goes.
 std::string range_text(const ValueRule& rule);
 
 /// What a value must be, to follow "must be": "a whole number from 1 to 5", "a number greater than 0 (m)".
