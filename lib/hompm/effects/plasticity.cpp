@@ -60,6 +60,8 @@ std::string conflict(const EffectSpec& spec, const Scene& scene) {
     return "it is one of small strain: `material.law` must be \"linear\", not \"" + scene.material.law + '"';
   if (!(spec.number("tangent_modulus") < scene.material.youngs_modulus))
     return "`tangent_modulus` must be below `material.youngs_modulus`";
+  if (scene.scheme.choices.sequence == Sequence::usf)
+    return "it maps the stress back after the motion: `scheme.sequence` must be \"musl\" or \"usl\"";
   int count = 0;
   for (const EffectSpec& other : scene.effects) count += other.type == spec.type ? 1 : 0;
   return count > 1 ? "a material yields in one way: give it once" : "";
