@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+import hard_cases  # noqa: E402
 import make_tables  # noqa: E402
 from cut_span import cut_span as exact_cut_span  # noqa: E402
 
@@ -155,6 +156,11 @@ def long_run(tools):
     return script + "unset multiplot\n"
 
 
+def hard(tools):
+    """What the tests of hard cases measured."""
+    return hard_cases.picture(tools, START, block, STYLES)
+
+
 def comparing(tools):
     """What hompm-diff --picture draws, here of golden data of two schemes."""
     golden = make_tables.ROOT / "golden"
@@ -177,7 +183,7 @@ def main():
     stale = []
     with tempfile.TemporaryDirectory() as work:
         tools = make_tables.Tools(arguments.tool.resolve(), work)
-        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("limit-cut", limit_cut), ("long-run", long_run), ("comparing", comparing)):
+        for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("limit-cut", limit_cut), ("long-run", long_run), ("hard-cases", hard), ("comparing", comparing)):
             subprocess.run(["gnuplot"], input=draw(tools), text=True, check=True, cwd=work)
             new = (pathlib.Path(work) / f"{name}.svg").read_text()
             path = PICTURES / f"{name}.svg"

@@ -24,6 +24,7 @@ import textwrap
 import tomllib
 
 sys.dont_write_bytecode = True
+import hard_cases  # noqa: E402
 import high_order_tables  # noqa: E402
 import stability_limits  # noqa: E402
 import verification_tables  # noqa: E402
@@ -480,7 +481,7 @@ PARTS = {
     "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
     "outside-effect": source("tests/package/drag.cpp", "cpp"),
-    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "parting": parting,
+    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "hard-cases": hard_cases.hard_cases, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,

@@ -8,6 +8,7 @@ Lines of the scene say how exact it must be:
     # expect: displacement 1e-3                        relative L2 error of that field against the reference solution
     # expect: stress at X = 0.5 is -4e4 within 1e-2    relative error at a point at the end, of a solution the scene explains
     # expect: momentum.end is -0.1 within 1e-3         absolute error of a number of run.json
+    # expect: exit 2, saying "is above the critical"   it does not run, or not to the end, and leaves nothing that looks like a result
 """
 import csv
 import json
@@ -39,6 +40,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / "out"
         done = subprocess.run([tool, "--scene", scene, "--json", "--no-vtk", "--output", output], capture_output=True, text=True, check=False)
+        if refusals := [(int(code), words) for code, words in re.findall(r'^# expect: exit (\d), saying "(.*)"$', "\n".join(f"# expect: {line}" for line in expected), re.MULTILINE)]:
+            for code, words in refusals:
+                failed |= done.returncode != code or words not in done.stderr
+            failed |= output.exists() and {path.name for path in output.iterdir()} != {"invalid"}
+            print(f"exit code {done.returncode}: {done.stderr.strip()}")
+            sys.exit(f"{scene}: not the exit code and the message it says" if failed else 0)
         if done.returncode != 0:
             sys.exit(f"{scene}: exit code {done.returncode}: {done.stderr.strip()}")
         report = json.loads(done.stdout)

@@ -155,6 +155,8 @@ TEST_CASE("a scene of several bodies is written and read back the same") {
   CHECK(hompm::scene_text(hompm::parse_scene(text, "again", {})) == text);
   REQUIRE(scene.bodies.size() == 2);
   CHECK(scene.bodies[1].material.youngs_modulus == 4.0);
-  CHECK(scene.bodies[1].effects.empty());
-  CHECK(scene.bodies[0].effects.size() == 1);
+  REQUIRE(scene.bodies[0].effects.size() == 2);  // the piston, and what couples it
+  CHECK(scene.bodies[0].effects[0].type == "piston");
+  REQUIRE(scene.bodies[1].effects.size() == 1);
+  CHECK(scene.bodies[1].effects[0].type == "interface");
 }

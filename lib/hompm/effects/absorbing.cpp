@@ -43,7 +43,8 @@ EffectType absorbing() {
           .parameters = {which_end("right")},
           .join = join,
           .conflict = conflict_of_held_end,
-          .holds_end = true};
+          .holds_end = true,
+          .own_stress = true};
 }
 
 }  // namespace hompm::detail

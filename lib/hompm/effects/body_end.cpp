@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <hompm/effects/body_end.hpp>
 
@@ -31,6 +32,34 @@ void join_own_stress(Side side, PlanBuilder& builder) {
     else
       state.left_stress = state.particles.stress.front();
   });
+}
+
+namespace {
+EffectCatalogue own_stress_alone() {
+  return {{.name = "own stress",
+           .meaning = "an end that carries the stress of its own stretch, held by nothing",
+           .parameters = {},
+           .join = [](const EffectSpec& spec, PlanBuilder& builder) {
+             if (builder.wants_end_stress) join_own_stress(side_of(spec), builder);
+           }}};
+}
+}  // namespace
+
+void leave_own_stress(Scene& scene) {
+  static const EffectCatalogue catalogue = own_stress_alone();
+  std::vector<EffectSpec> effects;
+  for (const auto& [end, which] : {std::pair{scene.ends.left, "left"}, {scene.ends.right, "right"}}) {
+    const bool own = std::ranges::any_of(scene.effects, [&, name = which](const EffectSpec& spec) {
+      const EffectType& type = find_effect(scene, spec);
+      return type.own_stress && (type.couples() || spec.text("end") == name);
+    });
+    if (own && end == End::free)
+      effects.push_back({.type = catalogue.front().name,
+                         .parameters = {{"end", std::string(which)}},
+                         .origin = {}});
+  }
+  scene.effects = std::move(effects);
+  scene.effect_types = &catalogue;
 }
 
 namespace {

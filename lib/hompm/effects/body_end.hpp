@@ -26,7 +26,10 @@ std::string conflict_of_held_end(const EffectSpec& spec, const Scene& scene);
 /// A marker on this end carries the stress of its own stretch, not one that is applied: what holds the end
 /// answers to it.
 void join_own_stress(Side side, PlanBuilder& builder);
-/// The same, in Phase::end_stress, while a gap (m) is shut and the stress pushes.
+/// Leaves nothing of a scene's effects but that ends carry their own stress, where `EffectType::own_stress`
+/// says so.
+void leave_own_stress(Scene& scene);
+/// The same as `join_own_stress`, in Phase::end_stress, while a gap (m) is shut and the stress pushes.
 void carry_contact_stress(State& state, Side side, double gap);
 
 /// The velocity (m/s) at which a gap may close: so that it is shut at the end of the drift, and no more.
@@ -40,8 +43,10 @@ double approach_limit(const State& state, double gap);
 /// J w. A condition on the velocity of the end is one scalar equation for J, and the drift meets it.
 ///
 /// J goes the way of all forces, through the particles to the grid, so that with it the step stays symmetric:
-/// it is an orthogonal projection that can only lower the highest frequency, and the critical step with it
-/// holds.
+/// to hold a velocity is an orthogonal projection that can only lower the highest frequency, and the critical
+/// step of the free end holds (with consistent mass, where that is so but nearly, to 1 %: docs/stability.md).
+/// An essential condition on the grid is another thing: it takes the functions beyond the end away, and the
+/// limit may be lower.
 class BodyEnd {
  public:
   BodyEnd(const PlanBuilder& builder, Side side);

@@ -43,6 +43,7 @@ EffectType contact() {
           .join = nullptr,
           .conflict = conflict_of_held_end,
           .holds_end = true,
+          .own_stress = true,
           .join_pair = join};
 }
 

@@ -38,6 +38,7 @@ EffectType interface() {
           .join = nullptr,
           .conflict = conflict_of_held_end,
           .holds_end = true,
+          .own_stress = true,
           .join_pair = join};
 }
 

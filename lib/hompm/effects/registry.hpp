@@ -52,6 +52,9 @@ struct EffectType {
   /// Decides how an end moves (its parameter `end`, which must be free): one such effect at each end, joined
   /// after all others.
   bool holds_end = false;
+  /// Such an end carries the stress of its own stretch, and may all the same move as if nothing held it: with
+  /// its fellow, or against a force. The critical step is then that of an end with its own stress.
+  bool own_stress = false;
   /// In place of `join`: couples the right end of a body to the left end of the next; both are held, and
   /// free.
   void (*join_pair)(const EffectSpec& spec, const PairBuilder& pair) = nullptr;

@@ -113,7 +113,7 @@ struct Scene {
   OutputSpec output;
 
   /// The scene of each body, where there are several: what they share is the same in all, each has the
-  /// effects that act on it alone. Body, material, ends and the like of this scene are then those of the
+  /// effects that act on it. Body, material, ends and the like of this scene are then those of the
   /// first.
   std::vector<Scene> bodies;
 

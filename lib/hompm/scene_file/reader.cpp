@@ -92,9 +92,7 @@ void read_bodies(Reading& reading, std::size_t count) {
       if (told.insert(problem.origin.text() + ' ' + problem.message).second)
         reading.problems.push_back(std::move(problem));
     if (body == 0) reading.scene = own.scene;
-    std::erase_if(own.scene.effects, [&](const EffectSpec& effect) {
-      return find_effect(own.scene, effect).couples() || effect.body.value_or(own.body) != own.body;
-    });
+    std::erase_if(own.scene.effects, [&](const EffectSpec& effect) { return !concerns(own, effect); });
     scenes.push_back(std::move(own.scene));
   }
   for (const Scene& scene : scenes)

@@ -55,8 +55,12 @@ class LeastSquares {
       for (std::size_t i = 0; i < stencil; ++i)
         for (std::size_t j = 0; j <= i; ++j) normal_.entry(f + i, f + j) = block[i][j];
     }
+    // On a breakpoint the last particle is taken to be in the cell beyond, of which it touches nothing. The
+    // mass does not reach there, and a function that it lacks moves on for ever without a force. Where the
+    // body moves that is one step at most.
+    const bool touches_nothing = !state.moves && state.basis.values[count * stencil - 1] == 0.0;
     normal_.factorise(state, static_cast<std::size_t>(first[0]),
-                      static_cast<std::size_t>(first[count - 1]) + stencil);
+                      static_cast<std::size_t>(first[count - 1]) + stencil - (touches_nothing ? 1 : 0));
   }
 
   /// The field for one entry of `data` per particle. Returns what fixed ends add to Σ w_p q_p.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <hompm/effects/body_end.hpp>
 #include <hompm/simulation/linear_step.hpp>
 
 namespace hompm {
@@ -10,7 +11,7 @@ Scene linear_scene(const Scene& scene) {
   Scene linear = scene;
   linear.kinematics = Kinematics::infinitesimal;
   linear.material.law = "linear";
-  linear.effects.clear();
+  detail::leave_own_stress(linear);
   linear.bodies.clear();
   linear.initial_velocity.reset();
   linear.scheme.relaxation_rate = 0.0;
