@@ -104,6 +104,10 @@ TEST_CASE("choices may be made with any scheme that has what they need") {
       Keys{{"scheme.name", "bspline"},
            {"scheme.velocity_projection", "least-squares"},
            {"scheme.transfer", "pic"}},
+      Keys{{"scheme.name", "bspline"}, {"scheme.quadrature", "moving-least-squares"}},
+      Keys{{"scheme.name", "bspline"}, {"scheme.quadrature", "mixed"}, {"scheme.degree", "1"}},
+      Keys{{"scheme.name", "tielen2017"}, {"scheme.conserve", "cell-momentum"}},
+      Keys{{"scheme.name", "high-order"}, {"scheme.quadrature", "taylor-least-squares"}},
       Keys{{"scheme.name", "bspline"}, {"scheme.stress_update", "from-positions"}, {"scheme.degree", "5"}},
       Keys{{"scheme.name", "tielen2017"}, {"scheme.time_integrator", "leapfrog"}, {"scheme.markers", "true"}},
       Keys{{"scheme.name", "high-order"}, {"scheme.quadrature", "reconstructed"}, {"scheme.degree", "4"}},
@@ -153,6 +157,18 @@ TEST_CASE("choices that do not go together are refused, at the one the scene mad
     CHECK_THAT(with(bspline, key, value),
                contains("`" + key + "`") && contains("needs reconstructed fields"));
   CHECK_THAT(with(bspline, "scheme.relaxation_rate", "1"), contains("`scheme.stress_update` must be"));
+  for (const std::string name : {"mixed", "classical"})
+    CHECK_THAT(with({{"scheme.name", name}, {"scheme.quadrature", "mixed"}}, "scheme.free_end", "cut-span"),
+               contains("\"taylor-least-squares\""));
+  CHECK_THAT(with(bspline, "scheme.quadrature", "mixed"), contains("needs `scheme.degree` = 1"));
+  CHECK_THAT(with({{"scheme.name", "mls"}}, "scheme.degree", "4"),
+             contains("from 1 to 3 with the scheme mls"));
+  CHECK_THAT(
+      with({{"scheme.name", "bspline"}, {"scheme.degree", "4"}}, "scheme.quadrature", "moving-least-squares"),
+      contains("`scheme.degree` must be at most 3, not 4"));
+  CHECK_THAT(with({{"scheme.name", "tls"}, {"scheme.conserve", "cell-momentum"}},
+                  "scheme.velocity_projection", "lumped"),
+             contains("`scheme.conserve`") && contains("`scheme.velocity_projection` must be"));
   const Keys tielen{{"scheme.name", "tielen2017"}};
   CHECK_THAT(with(tielen, "scheme.conserve", "momentum"), contains("lumped mass conserves momentum"));
   CHECK_THAT(with({{"scheme.name", "tielen2017"}, {"scheme.velocity_projection", "lumped"}},

@@ -58,7 +58,8 @@ CutSpan measure(double cut, bool extended, bool on_the_left) {
   hompm::SchemeChoices choices;
   choices.acceleration_mass = hompm::MassForm::consistent;
   choices.free_end = extended ? hompm::FreeEnd::extension : hompm::FreeEnd::cut_span;
-  hompm::detail::SplineReconstruction<P, hompm::detail::MatchingSplines<P>, P + 1> mass(state, choices);
+  using Splines = hompm::detail::MatchingSplines<P>;
+  hompm::detail::ReconstructionFrom<P, Splines, P + 1> mass(Splines(state.particles.size()), state, choices);
   mass.update_sites(state);
   mass.update_density(state);
   mass.update_consistent_mass(state);

@@ -20,8 +20,21 @@ enum class Formulation {
 enum class Quadrature {
   particles,      ///< at the particles, with their volumes
   reconstructed,  ///< at the Gauss points of Tielen et al. 2017, from cubic splines through particle data
-  reconstructed_exact,  ///< the same, with as many points and splines of such a degree as the basis asks for
+  reconstructed_exact,   ///< the same, with as many points and splines of such a degree as the basis asks for
+  moving_least_squares,  ///< at the same points as `reconstructed`, from moving least squares of particle
+                         ///< data
+  taylor_least_squares,  ///< at the same points, from a least-squares parabola in each cell (Wobbes et al.
+                         ///< 2019)
+  mixed,  ///< in cells inside the body the mean of the particles there, in others at the particles (Beuth
+          ///< 2012)
 };
+/// Whether particle data become functions that are integrated at Gauss points.
+inline bool reconstructs(Quadrature quadrature) {
+  return quadrature != Quadrature::particles && quadrature != Quadrature::mixed;
+}
+/// What least squares of degree 2 go with: they do not follow functions of a higher degree, and where several
+/// fit into a cell no step is stable for long.
+inline constexpr int highest_degree_of_parabolas = 3;
 enum class MassForm {
   lumped,      ///< row sums over the particles
   consistent,  ///< the full matrix, from the reconstructed density
@@ -63,9 +76,10 @@ enum class FreeEnd {
 };
 /// What the reconstructed density keeps of the particles' masses.
 enum class Conserve {
-  nothing,    ///< exactly; the masses agree to the order of the midpoint rule
-  cell_mass,  ///< ∫ρ over each cell is the sum of the masses there (Wobbes et al. 2019)
-  momentum,   ///< row sums of the mass matrix are Σ m_p N_i: forces change Σ m_p v_p by what they are
+  nothing,        ///< exactly; the masses agree to the order of the midpoint rule
+  cell_mass,      ///< ∫ρ over each cell is the sum of the masses there (Wobbes et al. 2019)
+  momentum,       ///< row sums of the mass matrix are Σ m_p N_i: forces change Σ m_p v_p by what they are
+  cell_momentum,  ///< as cell_mass, and ∫ρv over each cell is the sum of the momenta there
 };
 
 /// The defaults are the classical form.

@@ -118,17 +118,32 @@ void check_choices(Reading& reading) {
               of_hats + "relaxation_rate` must be 0");
   demand_that(!domains || reading.scene.scheme.cells >= 3 || !reading.has("scheme.cells"), "basis",
               of_hats + "cells` must be at least 3");
-  const bool reconstructs = c.quadrature != Quadrature::particles;
+  const bool has_fields = reconstructs(c.quadrature);
   const std::string needs_fields =
-      "needs reconstructed fields: `scheme.quadrature` must be \"reconstructed\" or \"reconstructed-exact\"";
-  demand_that(reconstructs || c.acceleration_mass == MassForm::lumped, "acceleration_mass",
+      "needs reconstructed fields: `scheme.quadrature` must be \"reconstructed\", \"reconstructed-exact\", "
+      "\"moving-least-squares\" or \"taylor-least-squares\"";
+  demand_that(has_fields || c.acceleration_mass == MassForm::lumped, "acceleration_mass",
               "= \"consistent\" " + needs_fields);
-  demand_that(reconstructs || c.velocity_projection != VelocityProjection::consistent, "velocity_projection",
+  demand_that(has_fields || c.velocity_projection != VelocityProjection::consistent, "velocity_projection",
               "= \"consistent\" " + needs_fields);
-  demand_that(reconstructs || c.free_end == FreeEnd::particles, "free_end",
+  demand_that(has_fields || c.free_end == FreeEnd::particles, "free_end",
               "other than \"particles\" " + needs_fields);
-  demand_that(reconstructs || c.conserve != Conserve::cell_mass, "conserve",
-              "= \"cell-mass\" " + needs_fields);
+  demand_that(has_fields || c.conserve != Conserve::cell_mass, "conserve", "= \"cell-mass\" " + needs_fields);
+  demand_that(
+      c.conserve != Conserve::cell_momentum || c.velocity_projection == VelocityProjection::consistent,
+      "conserve",
+      "= \"cell-momentum\" shifts what is projected with the consistent mass: "
+      "`scheme.velocity_projection` must be \"consistent\"");
+  const bool parabolas =
+      c.quadrature == Quadrature::moving_least_squares || c.quadrature == Quadrature::taylor_least_squares;
+  demand_that(!parabolas || reading.scene.scheme.degree <= highest_degree_of_parabolas, "quadrature",
+              "by least squares makes parabolas: `scheme.degree` must be at most " +
+                  std::to_string(highest_degree_of_parabolas) + ", not " +
+                  std::to_string(reading.scene.scheme.degree));
+  demand_that(
+      c.quadrature != Quadrature::mixed || reading.scene.scheme.degree == 1, "quadrature",
+      "= \"mixed\" needs `scheme.degree` = 1: one stress a cell leaves motions of higher degree without "
+      "stiffness");
   demand_that(c.conserve != Conserve::momentum || c.acceleration_mass == MassForm::consistent, "conserve",
               "= \"momentum\" corrects the consistent mass: `scheme.acceleration_mass` must be "
               "\"consistent\"; lumped mass conserves momentum as it is");

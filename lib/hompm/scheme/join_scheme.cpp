@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
+#include <hompm/numerics/moving_least_squares.hpp>
+#include <hompm/numerics/taylor_least_squares.hpp>
 #include <hompm/scheme/data_splines.hpp>
 #include <hompm/scheme/join_scheme.hpp>
+#include <hompm/scheme/mixed_integration.hpp>
 #include <hompm/scheme/motion.hpp>
 #include <hompm/scheme/velocity.hpp>
 
@@ -33,20 +37,33 @@ void find_carried_boundaries(State& state) {
   check_boundaries(state);
 }
 
+template <int P, int PerHalf, class Sites>
+Shared reconstruction_from(Sites sites, const State& state, const SchemeChoices& choices) {
+  return std::make_shared<detail::ReconstructionFrom<P, Sites, PerHalf>>(std::move(sites), state, choices);
+}
+
 template <int P>
 Shared make_reconstruction(const State& state, const SchemeChoices& choices) {
-  using numerics::CubicSplineSites;
+  const std::size_t count = state.particles.size();
+  // Tielen et al. (2017) take 2 points in each half of a cell for P = 2.
+  constexpr int per_half = std::max(2, P);
   switch (choices.quadrature) {
     case Quadrature::particles:
+    case Quadrature::mixed:
       return nullptr;
     case Quadrature::reconstructed:
-      // Tielen et al. (2017) take 2 points in each half of a cell for P = 2.
-      return std::make_shared<detail::SplineReconstruction<P, CubicSplineSites, std::max(2, P)>>(state,
-                                                                                                 choices);
-    default:
+      return reconstruction_from<P, per_half>(numerics::CubicSplineSites(count), state, choices);
+    case Quadrature::reconstructed_exact:
       // Products of two functions are of degree 2P: P + 1 points integrate them.
-      return std::make_shared<detail::SplineReconstruction<P, detail::MatchingSplines<P>, P + 1>>(state,
-                                                                                                  choices);
+      return reconstruction_from<P, P + 1>(detail::MatchingSplines<P>(count), state, choices);
+    default:
+      if constexpr (P <= highest_degree_of_parabolas) {
+        if (choices.quadrature == Quadrature::moving_least_squares)
+          return reconstruction_from<P, per_half>(numerics::MovingLeastSquares(count), state, choices);
+        return reconstruction_from<P, per_half>(numerics::TaylorLeastSquares(count, state.grid), state,
+                                                choices);
+      }
+      throw Error("least squares of degree 2 with a basis of degree " + std::to_string(P));
   }
 }
 
@@ -77,9 +94,9 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
         [least_squares](State& state) { least_squares->update(state); }, "per function: band matrix");
   if (!splines) return;
   builder.add(
-      Phase::geometry, "spline sites and Gauss points",
+      Phase::geometry, "data sites and Gauss points",
       [splines](State& state) { splines->update_sites(state); },
-      "per particle: spline matrix; per Gauss point: position, weight, basis, data weights");
+      "per particle: site, matrix; per Gauss point: position, weight, basis, data weights");
   if (!detail::needs_density(choices)) return;
   builder.add(
       Phase::geometry, "density and consistent mass",
@@ -94,7 +111,7 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
 }
 
 template <int P>
-void join_forces(PlanBuilder& builder, const Shared& splines) {
+void join_forces(PlanBuilder& builder, const Shared& fields) {
   if (builder.wants_end_stress) {
     builder.add(Phase::end_stress, "no stress at free ends",
                 [](State& state) { state.left_stress = state.right_stress = 0.0; });
@@ -103,11 +120,12 @@ void join_forces(PlanBuilder& builder, const Shared& splines) {
       if (state.ends.right == End::free) state.particles.stress.back() = state.right_stress;
     });
   }
-  if (splines) {
+  if (fields) {
     builder.add(
-        Phase::internal_force, "internal force from the stress spline",
-        [splines](State& state) { splines->internal_force(state); },
-        "per particle: the spline's coefficients");
+        Phase::internal_force, "internal force from the reconstructed stress",
+        [fields](State& state) { fields->internal_force(state); }, "per particle: the stress' coefficients");
+  } else if (builder.scene.scheme.choices.quadrature == Quadrature::mixed) {
+    builder.add(Phase::internal_force, "internal force from the cells", detail::mixed_internal_force);
   } else {
     const bool total = builder.scene.scheme.choices.formulation == Formulation::total_lagrangian;
     builder.add(Phase::internal_force, "internal force from the particles", [total](State& state) {

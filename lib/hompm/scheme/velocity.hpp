@@ -89,8 +89,8 @@ void join_projection(PlanBuilder& builder, const std::shared_ptr<Reconstruction>
       };
       return;
     case VelocityProjection::consistent:
-      builder.project = [splines](const State&, const auto& data, auto& field) {
-        splines->weighted_integrals(data, field);
+      builder.project = [splines](const State& state, const auto& data, auto& field) {
+        splines->weighted_integrals(state, data, field);
         splines->solve(field);
         return 0.0;
       };
@@ -117,7 +117,7 @@ void join_velocity_of_particles(PlanBuilder& builder, const std::shared_ptr<Reco
     case VelocityProjection::consistent:
       builder.add(Phase::velocity, "grid velocity, consistent mass", [splines](State& state) {
         GridFields& g = state.fields;
-        splines->weighted_integrals(state.particles.velocity, g.momentum);
+        splines->weighted_integrals(state, state.particles.velocity, g.momentum);
         g.velocity = g.momentum;
         splines->solve(g.velocity);
       });

@@ -1,0 +1,49 @@
+#include <hompm/numerics/taylor_least_squares.hpp>
+
+namespace hompm::numerics {
+
+TaylorLeastSquares::TaylorLeastSquares(std::size_t sites, const SplineSpace& grid)
+    : grid_(grid), inverse_width_(1.0 / grid.cell_width()), place_(sites), pieces_(sites) {}
+
+std::size_t TaylorLeastSquares::factorise(std::span<const double> sites) {
+  for (std::size_t i = 1; i < sites.size(); ++i)
+    if (!(sites[i] > sites[i - 1])) return i;
+  count_ = 0;
+  for (std::size_t i = 0; i < sites.size(); ++count_) {
+    const int cell = grid_.locate(sites[i]).cell;
+    const double start = grid_.breakpoint(cell);
+    const std::size_t begin = i;
+    do {
+      place_[i] = (sites[i] - start) * inverse_width_;
+      ++i;
+    } while (i < sites.size() && grid_.locate(sites[i]).cell == cell);
+    pieces_[count_] = {
+        i, start,
+        orthogonal_quadratics(
+            i - begin, [&](std::size_t k) { return place_[begin + k]; }, [](std::size_t) { return 1.0; })};
+  }
+  return 0;
+}
+
+void TaylorLeastSquares::fit(std::span<const double> values, Fit& fit) const {
+  std::size_t i = 0;
+  for (std::size_t piece = 0; piece < count_; ++piece) {
+    const auto& [end, start, basis] = pieces_[piece];
+    std::array<double, 3> sum{};
+    for (; i < end; ++i) {
+      sum[0] += values[i];
+      sum[1] += values[i] * basis.q1(place_[i]);
+      sum[2] += values[i] * basis.q2(place_[i]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) fit.coefficients[piece][k] = sum[k] * basis.inverse_norm[k];
+  }
+}
+
+std::size_t TaylorLeastSquares::factorise_and_fit(std::span<const double> sites,
+                                                  std::span<const double> values, Fit& result) {
+  const std::size_t bad = factorise(sites);
+  if (bad == 0) fit(values, result);
+  return bad;
+}
+
+}  // namespace hompm::numerics

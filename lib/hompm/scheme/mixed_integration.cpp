@@ -1,0 +1,34 @@
+#include <algorithm>
+
+#include <hompm/scheme/mixed_integration.hpp>
+
+namespace hompm::detail {
+
+void mixed_internal_force(State& state) {
+  const Particles& p = state.particles;
+  const std::vector<double>& volumes = state.basis_moves ? p.volume : p.reference_volume;
+  const std::int32_t* first = state.basis.first.data();
+  const double inverse_width = 1.0 / state.grid.cell_width();
+  const auto is_full = [&](int cell) {
+    const bool from = state.ends.left == End::fixed || state.left_boundary <= state.grid.breakpoint(cell);
+    const bool to = state.ends.right == End::fixed || state.grid.breakpoint(cell + 1) <= state.right_boundary;
+    return from && to;
+  };
+  std::vector<double>& force = state.fields.internal_force;
+  std::fill(force.begin(), force.end(), 0.0);
+  for (std::size_t i = 0; i < p.size();) {
+    const std::int32_t cell = first[i];
+    double volume = 0.0, sum = 0.0;
+    for (; i < p.size() && first[i] == cell; ++i) {
+      volume += volumes[i];
+      sum += volumes[i] * p.stress[i];
+    }
+    // A marker alone in a cell has no volume.
+    const double stress = is_full(cell) && volume > 0.0 ? sum / volume : sum * inverse_width;
+    const auto left = static_cast<std::size_t>(cell);
+    force[left] -= stress;
+    force[left + 1] += stress;
+  }
+}
+
+}  // namespace hompm::detail
