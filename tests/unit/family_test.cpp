@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include <hompm/error.hpp>
 #include <hompm/scheme/particle_domains.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/run.hpp>
 
 #include "support/catch.hpp"
+#include "support/message_of.hpp"
 #include "support/scenes.hpp"
 
 namespace {
@@ -19,7 +21,9 @@ using hompm::Phase;
 using hompm::Simulation;
 using hompm::State;
 using hompm::test::built_in;
+using hompm::test::contains;
 using hompm::test::free_body;
+using hompm::test::message_of;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 const std::vector<std::string> of_hats{"ugimp", "cpgimp", "cpdi", "ddmp"};
@@ -299,4 +303,45 @@ TEST_CASE("USF keeps the energy of long vibrations better than USL, which damps"
   };
   CHECK(lost("usl") > 0.05);
   CHECK(std::abs(lost("usf")) < 0.05);
+}
+
+TEST_CASE("domains end with the grid at fixed ends, whatever its cells round to") {
+  const std::string scheme = GENERATE(from_range(of_hats));
+  for (int cells = 3; cells < 60; ++cells) {
+    const std::string length = std::to_string(0.1 * cells + 0.7);
+    const auto scene = free_body({{"scheme.name", scheme},
+                                  {"scheme.cells", std::to_string(cells)},
+                                  {"scheme.particles_per_cell", "3"},
+                                  {"body.length", length},
+                                  {"body.start", "0.1"},
+                                  {"ends.left", "fixed"},
+                                  {"ends.right", "fixed"}});
+    Simulation simulation(scene, 1e-3);
+    auto& p = simulation.state().particles;
+    for (double& x : p.position) x += 1e-9;  // so that the last domain reaches beyond the end
+    for (double& end : p.right_end) end += 1e-9;
+    simulation.plan().run(Phase::geometry, simulation.state());
+    const auto& mass = simulation.state().fields.mass;
+    CHECK(std::abs(std::accumulate(mass.begin(), mass.end(), 0.0) - simulation.state().total_mass) <=
+          512 * epsilon * simulation.state().total_mass);
+  }
+}
+
+TEST_CASE("a domain too wide for its functions, and particles outside the grid, stop the run") {
+  Simulation wide(free_body({{"scheme.name", "cpgimp"}, {"scheme.particles_per_cell", "1"}}), 1e-3);
+  wide.state().particles.volume[5] *= 4.0;
+  const auto geometry = [](Simulation& simulation) {
+    return message_of<hompm::InvalidRun>([&] { simulation.plan().run(Phase::geometry, simulation.state()); });
+  };
+  CHECK(contains(geometry(wide), "particle 5: its domain of 0.25 m reaches over four cells of 0.0625 m"));
+  for (const std::string& scheme : of_hats) {
+    INFO(scheme);
+    Simulation lost(free_body({{"scheme.name", scheme}}), 1e-3);
+    lost.state().particles.position[7] = 100.0;
+    if (scheme == "cpdi") lost.state().particles.right_end[7] = std::numeric_limits<double>::quiet_NaN();
+    CHECK(contains(geometry(lost), "particle 7: left the grid"));
+  }
+  Simulation free(free_body({{"scheme.name", "cpdi"}}), 1e-3);
+  free.state().particles.right_end.back() = 100.0;
+  CHECK(contains(geometry(free), "the free end left the grid"));
 }
