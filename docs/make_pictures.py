@@ -23,6 +23,9 @@ PICTURES = make_tables.ROOT / "docs/pictures"
 # Okabe and Ito's colours, which everybody can tell apart; the shapes differ, too.
 STYLES = {"classical": ("#D55E00", 7), "bspline": ("#0072B2", 5), "tielen2017": ("#009E73", 9),
           "high-order": ("#CC79A7", 13)}
+# The rest of the family: thin, and dashed where a colour comes twice.
+OTHERS = {"ugimp": ("#E69F00", 1), "cpgimp": ("#56B4E9", 1), "cpdi": ("#56B4E9", 2), "ddmp": ("#999999", 1), "apic": ("#000000", 1),
+          "total-lagrangian": ("#000000", 2), "mixed": ("#E69F00", 2), "mls": ("#999999", 2), "tls": ("#009E73", 2)}
 
 START = """
 set encoding utf8
@@ -143,16 +146,19 @@ plot """ + ", \\\n     ".join(plots) + "\n"
 
 def long_run(tools):
     """Energy over a thousand periods of the small bar."""
-    script = START.format(size="920,420", name="long-run") + 'set multiplot layout 1,2 title "Energy over a thousand periods, 16 cells, half the critical step" font ",17"\n'
-    script += 'set xlabel "t, s"\nset xrange [0:5000]\nset xtics 1000\n'
+    script = START.format(size="1200,480", name="long-run") + 'set multiplot layout 1,2 title "Energy over a thousand periods, 16 cells, half the critical step" font ",17"\n'
+    script += 'set xlabel "t, s"\nset xrange [0:5000]\nset xtics 1000\nset tmargin 4\nset bmargin 4\n'
     for law, top in (("linear", 1.2), ("rate", 9)):
         plots = []
-        for scheme, (colour, _) in STYLES.items():
+        for row in make_tables.scheme_rows():
+            scheme = row["name"]
+            colour, dash = (STYLES[scheme][0], 1) if scheme in STYLES else OTHERS[scheme]
             name = f"{law}_{scheme}".replace("-", "_")
-            script += block(name, [[f"{time:.0f}", f"{energy:.4f}"] for time, energy in make_tables.long_bar(tools, scheme, law)[::2]])
-            plots.append(f'${name} using 1:2 with lines linewidth 1.5 linecolor "{colour}" title "{scheme}"')
+            script += block(name, [[f"{time:.0f}", f"{energy:.4f}"] for time, energy in make_tables.long_bar(tools, scheme, law)[::4]])
+            plots.append(f'${name} using 1:2 with lines linewidth {2 if scheme in STYLES else 1} dashtype {dash} linecolor "{colour}" title "{scheme}"')
+        script += "set lmargin at screen %g\nset rmargin at screen %g\n" % ((0.06, 0.38) if law == "linear" else (0.43, 0.75))
         script += f'set title "law {law}"\nset ylabel "{"energy over that at the start" if law == "linear" else ""}"\nset yrange [{0.8 if law == "linear" else 0}:{top}]\n'
-        script += ("set key left top Left reverse samplen 2\n" if law == "rate" else "unset key\n") + "plot " + ", \\\n     ".join(plots) + "\n"
+        script += ("set key at screen 0.995,0.8 right top Left reverse samplen 2\n" if law == "rate" else "unset key\n") + "plot " + ", \\\n     ".join(plots) + "\n"
     return script + "unset multiplot\n"
 
 
