@@ -332,6 +332,27 @@ def long_bars(tools):
     return table(["scheme", *(f"`{law}`: {word}" for law in LAWS for word in ("least", "largest", "last"))], rows, range(1, 7))
 
 
+ABSORBING, NOTHING = '{ type = "absorbing" }', ""
+
+
+def limit_own_stress(tools):
+    """The limit of a free end with its own stress over that of a free end."""
+    def limit(degree, per_cell, effect):
+        scene = tools.work / "own_stress.toml"
+        scene.write_text(f"""end_time = 1.0
+body.length = 16
+material = {{ law = "linear", density = 1, youngs_modulus = 1 }}
+ends = {{ left = "free", right = "free" }}
+effect = [ {effect} ]
+scheme = {{ name = "high-order", degree = {degree}, cells = 16, particles_per_cell = {per_cell}, step_fraction = 0.5 }}
+""", encoding="utf-8")
+        return float(re.search(r"at the start\s+\S+\s+(\S+)", tools.text("--scene", scene, "--critical-step"))[1])
+
+    counts = [2, 3, 4, 6, 8]
+    rows = [[degree, *(f"{limit(degree, count, ABSORBING) / limit(degree, count, NOTHING):.2f}" for count in counts)] for degree in DEGREES]
+    return table(["p", *counts], rows, range(len(counts) + 1))
+
+
 # What a guard watches, and a scene that it stops.
 GUARDS = {
     "stretch": ["--case", "bar", "--set", "initial.velocity.amplitude=60", "--step-fraction", "0.9"],
@@ -497,7 +518,7 @@ PARTS = {
     "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
     "outside-effect": source("tests/package/drag.cpp", "cpp"),
-    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "hard-cases": hard_cases.hard_cases, "parting": parting,
+    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "hard-cases": hard_cases.hard_cases, "limit-own-stress": limit_own_stress, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,

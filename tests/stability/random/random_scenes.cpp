@@ -60,10 +60,9 @@ struct Pair {
 
 /// A scene as text, its strain and step of either pair: of 1 % at 0.9 of the critical step, or of 5 % at half
 /// of it: the limit is that of a configuration, and where particles cross cells within a few large steps it
-/// can be passed. Up to two
-/// waves' way through the body. Everything else is anything, but local damping with consistent mass: the
-/// damped part of the force then acts on all functions around, and the balance does not know
-/// (docs/stability.md).
+/// can be passed. Up to two waves' way through the body. Everything else is anything, but for what is known
+/// to fail (docs/stability.md): local damping at more than half of these steps, or with consistent mass, and
+/// `usl` with free ends.
 std::string draw(std::uint64_t seed, const Pair& small, const Pair& large) {
   Random random(seed);
   const double length = std::pow(10.0, random.between(-2.0, 2.0));
@@ -75,10 +74,11 @@ std::string draw(std::uint64_t seed, const Pair& small, const Pair& large) {
   const char* law = random.one_of({"linear", "rate", "hencky", "neo-hookean"});
   const char* left = random.one_of({"fixed", "free"});
   const char* right = random.one_of({"fixed", "free"});
-  const bool free_right = std::strcmp(right, "free") == 0;
-  const bool held = std::strcmp(left, "fixed") == 0 || !free_right;
   const auto& scheme = hompm::scheme_table()[static_cast<std::size_t>(
       random.whole(0, static_cast<int>(hompm::scheme_table().size()) - 1))];
+  if (scheme.choices.sequence == hompm::Sequence::usl) left = right = "fixed";
+  const bool free_right = std::strcmp(right, "free") == 0;
+  const bool held = std::strcmp(left, "fixed") == 0 || !free_right;
   const int degree = random.whole(scheme.lowest_degree, scheme.highest_degree);
 
   std::string text = line("end_time", crossing * random.between(0.5, 2.0));
@@ -102,7 +102,8 @@ std::string draw(std::uint64_t seed, const Pair& small, const Pair& large) {
   if (random.chance(0.3))
     text += "\n[[effect]]\ntype = \"mass-damping\"\n" + line("rate", random.between(0.0, 3.0) / crossing);
   const bool lumped = scheme.choices.acceleration_mass == hompm::MassForm::lumped;
-  if (lumped && random.chance(0.2))
+  const bool damped = lumped && random.chance(0.2);
+  if (damped)
     text += "\n[[effect]]\ntype = \"local-damping\"\n" + line("coefficient", random.between(0.0, 0.8));
   const char* integrator = random.one_of({"", "", "euler-cromer", "leapfrog", "blanes-moan"});
   if (std::strcmp(integrator, "blanes-moan") != 0) {
@@ -114,20 +115,17 @@ std::string draw(std::uint64_t seed, const Pair& small, const Pair& large) {
   text += "\n[scheme]\nname = \"" + scheme.name + "\"\ndegree = " + std::to_string(degree) +
           "\ncells = " + std::to_string(random.whole(2 * degree + 6, 32)) +
           "\nparticles_per_cell = " + std::to_string(random.whole(2, 6)) + "\n" +
-          line("step_fraction", step_fraction);
+          line("step_fraction", damped ? 0.5 * step_fraction : step_fraction);
   if (*integrator != '\0') text += "time_integrator = \"" + std::string(integrator) + "\"\n";
   text += "\n[output]\nsnapshots = 3\nhistory = 50\n";
   return text;
 }
 
 /// How far the energy balance may be open, as a part of the energy at work. Half a wave over three cells at
-/// 0.9 of the critical step is what a scene may be: then ω Δt is near 1, kinetic and stored energy are known
-/// half a step apart with Euler–Cromer, and local damping changes its sign within a wave. All of it falls
-/// with the step (docs/stability.md).
+/// 0.9 of the critical step is what a scene may be: then ω Δt is near 1, and kinetic and stored energy are
+/// known half a step apart with Euler–Cromer: 0.82 at most. It falls with the step (docs/stability.md).
 double energy_bound(const hompm::Scene& scene) {
-  for (const auto& effect : scene.effects)
-    if (effect.type == "local-damping") return 1.2;
-  return scene.scheme.choices.time_integrator == hompm::TimeIntegrator::euler_cromer ? 0.8 : 0.6;
+  return scene.scheme.choices.time_integrator == hompm::TimeIntegrator::euler_cromer ? 0.9 : 0.6;
 }
 
 /// What is wrong with the scene; "" when nothing is, "refused" when there is no such run.
