@@ -54,9 +54,8 @@ void leave_own_stress(Scene& scene) {
       return type.own_stress && (type.couples() || spec.text("end") == name);
     });
     if (own && end == End::free)
-      effects.push_back({.type = catalogue.front().name,
-                         .parameters = {{"end", std::string(which)}},
-                         .origin = {}});
+      effects.push_back(
+          {.type = catalogue.front().name, .parameters = {{"end", std::string(which)}}, .origin = {}});
   }
   scene.effects = std::move(effects);
   scene.effect_types = &catalogue;
