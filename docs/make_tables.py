@@ -375,7 +375,7 @@ def guards(tools):
 
 # From the ground up.
 ROOMS = {
-    "numerics": "mathematics without mechanics: spline space, interpolating splines, Gauss rules, band solver, rounded elementary functions",
+    "numerics": "mathematics without mechanics: spline space, interpolating splines, least squares, Gauss rules, band solver, rounded elementary functions",
     "scene": "what is simulated, as plain data",
     "materials": "stress, tangent, modulus, stored energy and inverse of each law",
     "plan": "the stages of a step and the state they work on",
