@@ -423,6 +423,7 @@ def plan(tools):
 
 # What the meaning of a key in docs/scenes.md points at.
 MORE = {
+    "initial.displacement.shape": "[start](#start)",
     "material.law": "[formulas](method.md#materials)", "rest.speed": "[rest](method.md#rest)", "scheme.name": "[schemes](schemes.md)",
     "scheme.basis": "[bases](schemes.md#bases)", "scheme.formulation": "[total Lagrangian](schemes.md#total-lagrangian)",
     "scheme.sequence": "[sequences](schemes.md#sequences)", "scheme.transfer": "[transfers](schemes.md#transfers)",

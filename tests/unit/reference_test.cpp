@@ -27,7 +27,7 @@ Scene bar(const std::string& law, double amplitude, int mode = 1) {
   Scene scene;
   scene.body.length = 25.0;
   scene.material = {law, 1.0, 100.0};
-  scene.initial_velocity = InitialVelocity{"sine", amplitude, mode};
+  scene.initial_velocity = InitialField{"sine", amplitude, mode};
   return scene;
 }
 

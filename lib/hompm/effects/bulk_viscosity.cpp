@@ -24,10 +24,12 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
                       });
 }
 
-/// A jump over a cell is at most the speed at the start, as far as the scene says it.
+/// A jump over a cell is at most the speed at the start, and what the strain there becomes, as far as the
+/// scene says it.
 SmallMotion small_motion(const EffectSpec& spec, const Scene& scene) {
   const double c = wave_speed(scene);
-  const double jump = scene.initial_velocity ? std::abs(scene.initial_velocity->amplitude) : 0.0;
+  double jump = scene.initial_velocity ? std::abs(scene.initial_velocity->amplitude) : 0.0;
+  if (scene.initial_displacement) jump += c * scene.initial_displacement->steepest(scene.body.length);
   return {.viscous_time =
               (spec.number("linear") + spec.number("quadratic") * jump / c) * cell_width(scene) / c};
 }

@@ -80,6 +80,8 @@ void prepare(const EffectSpec& spec, const Scene& scene, State& state) {
 std::string conflict(const EffectSpec& spec, const Scene& scene) {
   if (scene.ends.left == End::free || scene.ends.right == End::free)
     return "its solution is at rest at both ends: they must be \"fixed\"";
+  if (scene.initial_displacement)
+    return "it starts from the undeformed body: leave out [initial.displacement]";
   if (scene.initial_velocity) return "it brings its own velocity at the start: leave out [initial.velocity]";
   const double largest_strain = numerics::pi * std::abs(spec.number("amplitude")) / scene.body.length;
   if (!(largest_strain < 1.0))

@@ -62,6 +62,10 @@ std::string conflict(const EffectSpec& spec, const Scene& scene) {
     return "`tangent_modulus` must be below `material.youngs_modulus`";
   if (scene.scheme.choices.sequence == Sequence::usf)
     return "it maps the stress back after the motion: `scheme.sequence` must be \"musl\" or \"usl\"";
+  if (scene.initial_displacement &&
+      scene.material.youngs_modulus * scene.initial_displacement->steepest(scene.body.length) >
+          spec.number("yield_stress"))
+    return "it starts elastic: [initial.displacement] must not stress it beyond `yield_stress`";
   int count = 0;
   for (const EffectSpec& other : scene.effects) count += other.type == spec.type ? 1 : 0;
   return count > 1 ? "a material yields in one way: give it once" : "";

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include <hompm/materials/material.hpp>
 #include <hompm/plan/state.hpp>
 
 namespace hompm {
@@ -26,6 +27,32 @@ numerics::SplineSpace make_grid(const Scene& scene) {
        hair *= 2.0)
     h = width * (1.0 + hair);
   return grid_of(h);
+}
+
+/// Moves the body to its displacement at the start, with the stretch and the stress that go with it.
+void displace(const InitialField& displacement, const Scene& scene, State& state) {
+  Particles& p = state.particles;
+  const double length = scene.body.length;
+  const auto place = [&](double X) { return (X - scene.body.left()) / length; };
+  const auto moved = [&](double X) { return X + displacement.at(place(X), length); };
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double at = place(p.reference_position[i]);
+    p.displacement[i] = displacement.at(at, length);
+    p.stretch[i] = 1.0 + displacement.slope_at(at, length);
+  }
+  std::visit(
+      [&p](const auto& law) {
+        for (std::size_t i = 0; i < p.size(); ++i) p.stress[i] = law.stress(p.stretch[i]);
+      },
+      make_material(scene.material));
+  if (!state.moves) return;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.position[i] = p.reference_position[i] + p.displacement[i];
+    p.volume[i] = p.reference_volume[i] * p.stretch[i];
+  }
+  for (double& end : p.right_end) end = moved(end);
+  state.left_boundary = moved(state.left_boundary);
+  state.right_boundary = moved(state.right_boundary);
 }
 
 }  // namespace
@@ -56,7 +83,7 @@ State initial_state(const Scene& scene) {
   p.velocity.assign(sites, 0.0);
   if (const auto& initial = scene.initial_velocity)
     for (std::size_t i = 0; i < sites; ++i)
-      p.velocity[i] = velocity_at(*initial, p.reference_position[i] / scene.body.length, scene.body.length);
+      p.velocity[i] = initial->at(p.reference_position[i] / scene.body.length, scene.body.length);
   for (double& X : p.reference_position) X += scene.body.left();
   p.position = p.reference_position;
   p.displacement.assign(sites, 0.0);
@@ -76,6 +103,8 @@ State initial_state(const Scene& scene) {
       p.right_end.push_back(i + 1 == count ? scene.body.right()
                                            : 0.5 * (p.reference_position[i] + p.reference_position[i + 1]));
   if (choices.transfer == Transfer::apic) p.velocity_gradient.assign(sites, 0.0);
+
+  if (scene.initial_displacement) displace(*scene.initial_displacement, scene, state);
 
   const std::size_t stencil =
       choices.basis == Basis::splines ? static_cast<std::size_t>(scene.scheme.degree) + 1 : 4;

@@ -92,8 +92,8 @@ struct State {
 };
 
 /// The state of a scene at t = 0: particles at (2i − 1)/(2k) of each cell with equal volumes, initial
-/// velocity, no stress; the grid reaches `margin_cells` beyond each free end; markers where the scene's
-/// scheme has them. Allocates every array a step needs.
+/// velocity, displaced as the scene says and stressed by that; the grid reaches `margin_cells` beyond each
+/// free end; markers where the scene's scheme has them. Allocates every array a step needs.
 State initial_state(const Scene& scene);
 
 }  // namespace hompm

@@ -6,13 +6,11 @@
 
 namespace hompm {
 
-ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode, double time,
-                              std::span<const double> X) {
-  const double wave_number = static_cast<double>(mode) / body.length;  // over π
-  const double phase = wave_number * body.wave_speed * time;
-  const double velocity = amplitude * numerics::cos_pi(phase);
-  const double displacement =
-      amplitude * numerics::sin_pi(phase) / (numerics::pi * wave_number * body.wave_speed);
+namespace {
+
+/// u = displacement sin(kπX/L), v = velocity sin(kπX/L), `wave_number` k/L.
+ReferenceFields standing_wave(const LinearBody& body, double displacement, double velocity,
+                              double wave_number, std::span<const double> X) {
   const double stiffness = body.density * body.wave_speed * body.wave_speed;
   ReferenceFields fields;
   for (const double x : X) {
@@ -23,6 +21,25 @@ ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode
                             numerics::cos_pi(wave_number * x));
   }
   return fields;
+}
+
+}  // namespace
+
+ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode, double time,
+                              std::span<const double> X) {
+  const double wave_number = static_cast<double>(mode) / body.length;  // over π
+  const double phase = wave_number * body.wave_speed * time;
+  const double displacement =
+      amplitude * numerics::sin_pi(phase) / (numerics::pi * wave_number * body.wave_speed);
+  return standing_wave(body, displacement, amplitude * numerics::cos_pi(phase), wave_number, X);
+}
+
+ReferenceFields released_bar(const LinearBody& body, double amplitude, int mode, double time,
+                             std::span<const double> X) {
+  const double wave_number = static_cast<double>(mode) / body.length;  // over π
+  const double phase = wave_number * body.wave_speed * time;
+  const double velocity = -amplitude * numerics::pi * wave_number * body.wave_speed * numerics::sin_pi(phase);
+  return standing_wave(body, amplitude * numerics::cos_pi(phase), velocity, wave_number, X);
 }
 
 ReferenceFields loaded_column(const LinearBody& body, double acceleration, double time,

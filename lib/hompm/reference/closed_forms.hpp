@@ -20,6 +20,11 @@ struct LinearBody {
 ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode, double time,
                               std::span<const double> X);
 
+/// Free vibration between fixed ends from u(X, 0) = amplitude sin(kπX/L) at rest (amplitude in m): u =
+/// amplitude cos(ωt) sin(kπX/L), with the notation of `vibrating_bar`.
+ReferenceFields released_bar(const LinearBody& body, double amplitude, int mode, double time,
+                             std::span<const double> X);
+
 /// A column at rest, fixed at X = 0 and free at X = L, from t = 0 under the acceleration b (m/s², in +X):
 /// d'Alembert's form of the series of Tielen et al. (2017), exact. Up to t = 2L/c, with a = t − X/c, d = t −
 /// (2L − X)/c and ()₊ the positive part: u = (b/2)(t² − a₊² − d₊²); from there the motion runs backwards,

@@ -44,7 +44,12 @@ class Lines {
         const double place =
             (static_cast<double>(e) + 0.5 * (1.0 + rule_.nodes[i])) / static_cast<double>(elements_);
         if (scene.initial_velocity)
-          state_[nodes_ + node] = velocity_at(*scene.initial_velocity, place, scene.body.length);
+          state_[nodes_ + node] = scene.initial_velocity->at(place, scene.body.length);
+        if (scene.initial_displacement) {
+          state_[node] = scene.initial_displacement->at(place, scene.body.length);
+          smallest_stretch_ = std::min(smallest_stretch_,
+                                       1.0 + scene.initial_displacement->slope_at(place, scene.body.length));
+        }
         inverse_mass_[node] += 0.5 * width_ * density_ * rule_.weights[i];
       }
     }
@@ -177,8 +182,10 @@ Resolution suitable_resolution(const Scene& scene, const Loads& loads) {
   };
   const bool fixed = scene.ends.left == End::fixed && scene.ends.right == End::fixed;
   const bool kinks = sudden(loads.gravity) || sudden(loads.left) || sudden(loads.right);
-  const bool smooth = !kinks && (fixed || !scene.initial_velocity);
-  const int mode = scene.initial_velocity ? std::max(scene.initial_velocity->mode, 1) : 1;
+  const bool smooth = !kinks && (fixed || (!scene.initial_velocity && !scene.initial_displacement));
+  int mode = 1;
+  for (const auto& field : {scene.initial_velocity, scene.initial_displacement})
+    if (field) mode = std::max(mode, field->mode);
   return smooth ? Resolution{8 + 8 * mode, 12, 0.25} : Resolution{std::max(96, 8 * mode), 4, 1.0};
 }
 

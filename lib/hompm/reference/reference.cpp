@@ -81,7 +81,9 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
   const bool pulled = std::ranges::any_of(loads.right, [](const Load& load) { return load.value != 0.0; });
   const double acceleration = weight.value_or(0.0);
   const bool only_gravity = acceleration != 0.0 && !loads.damped() && !pulled;
-  if (!only_gravity || !constant || loads.local_damping || scene.initial_velocity) return std::nullopt;
+  if (!only_gravity || !constant || loads.local_damping || scene.initial_velocity ||
+      scene.initial_displacement)
+    return std::nullopt;
   const double speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
   if (scene.material.law == "linear") {
     const LinearBody body{scene.body.length, scene.material.density, speed};
@@ -98,14 +100,31 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
   return std::nullopt;
 }
 
+void add(const ReferenceFields& more, ReferenceFields& fields) {
+  const auto sum = [](const std::vector<double>& a, std::vector<double>& b) {
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] += a[i];
+  };
+  sum(more.displacement, fields.displacement);
+  sum(more.velocity, fields.velocity);
+  sum(more.stress, fields.stress);
+}
+
 std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads) {
   const bool free = loads.gravity.empty() && !loads.damped();
   if (scene.material.law != "linear" || !free) return std::nullopt;
-  if (!scene.initial_velocity || scene.initial_velocity->shape != "sine") return std::nullopt;
+  const auto standing = [](const std::optional<InitialField>& field) {
+    return !field || field->shape == "sine";
+  };
+  const std::optional<InitialField> velocity = scene.initial_velocity;
+  const std::optional<InitialField> displacement = scene.initial_displacement;
+  if (!standing(velocity) || !standing(displacement) || (!velocity && !displacement)) return std::nullopt;
   const LinearBody body{scene.body.length, scene.material.density,
                         std::sqrt(scene.material.youngs_modulus / scene.material.density)};
-  const auto at = [body, initial = *scene.initial_velocity](double time, std::span<const double> X) {
-    return vibrating_bar(body, initial.amplitude, initial.mode, time, X);
+  const auto at = [body, velocity, displacement](double time, std::span<const double> X) {
+    if (!displacement) return vibrating_bar(body, velocity->amplitude, velocity->mode, time, X);
+    ReferenceFields fields = released_bar(body, displacement->amplitude, displacement->mode, time, X);
+    if (velocity) add(vibrating_bar(body, velocity->amplitude, velocity->mode, time, X), fields);
+    return fields;
   };
   return exact("vibrating bar of small strains, standing wave (Tielen et al. 2017)", at);
 }

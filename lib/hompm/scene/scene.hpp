@@ -27,17 +27,21 @@ struct MaterialSpec {
   double youngs_modulus = 0.0;  ///< Pa
 };
 
-/// With X from the left end of the body: sine, v = amplitude · sin(mode π X / length); uniform, v =
-/// amplitude; linear, v = amplitude + gradient · X.
-struct InitialVelocity {
+/// Velocity (m/s) or displacement (m) at t = 0, with X from the left end of the body: sine, amplitude ·
+/// sin(mode π X / length); uniform, amplitude; linear, amplitude + gradient · X.
+struct InitialField {
   std::string shape;                    ///< sine, uniform, linear
-  double amplitude = 0.0;               ///< m/s
+  double amplitude = 0.0;               ///< m/s or m
   int mode = 1;                         ///< half waves over the body
-  std::optional<double> gradient = {};  ///< 1/s, of the shape linear
-};
+  std::optional<double> gradient = {};  ///< 1/s or –, of the shape linear
 
-/// Velocity (m/s) at t = 0 at the part `place` of the body, from 0 at its left end to 1.
-double velocity_at(const InitialVelocity& initial, double place, double length);
+  /// At the part `place` of a body of the length (m), from 0 at its left end to 1.
+  [[nodiscard]] double at(double place, double length) const;
+  /// ∂/∂X of that, 1/s or –.
+  [[nodiscard]] double slope_at(double place, double length) const;
+  /// The largest size of the slope.
+  [[nodiscard]] double steepest(double length) const;
+};
 
 enum class End { fixed, free };
 enum class Kinematics { infinitesimal, finite };
@@ -104,7 +108,8 @@ struct Scene {
   Kinematics kinematics = Kinematics::finite;
   Body body;
   MaterialSpec material;
-  std::optional<InitialVelocity> initial_velocity;
+  std::optional<InitialField> initial_velocity;
+  std::optional<InitialField> initial_displacement;  ///< what it does to the stretch makes the stress
   Ends ends;
   GridSpec grid;
   std::vector<EffectSpec> effects;

@@ -1,4 +1,6 @@
 // What the keys of a body demand of each other.
+#include <cmath>
+
 #include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/reading.hpp>
 
@@ -34,19 +36,51 @@ void check_grid(Reading& reading) {
                    "the grid must have at most 1e8 cells, not " + toml_number(cells));
 }
 
-void check_initial_velocity(Reading& reading) {
-  const auto& initial = reading.scene.initial_velocity;
-  if (!initial || !reading.has("initial.velocity.shape")) return;
-  const bool linear = initial->shape == "linear";
-  if (linear && reading.silent_on("initial.velocity.gradient") &&
-      !reading.meant.contains("initial.velocity.gradient"))
-    reading.report(
-        reading.said.where("initial.velocity"),
-        "`initial.velocity.gradient` is missing; the shape \"linear\" needs a finite number (1/s)");
-  if (!linear && initial->gradient)
-    reading.report(
-        reading.said.where("initial.velocity.gradient"),
-        "`initial.velocity.gradient` goes with the shape \"linear\", not \"" + initial->shape + '"');
+/// The gradient goes with the shape linear. Whether the field can be used.
+bool check_gradient(Reading& reading, const std::string& table, const std::optional<InitialField>& field,
+                    const std::string& unit) {
+  if (!field || !reading.has(table + ".shape")) return false;
+  const std::string key = table + ".gradient";
+  const bool linear = field->shape == "linear";
+  if (linear && reading.silent_on(key) && !reading.meant.contains(key))
+    reading.report(reading.said.where(table),
+                   '`' + key + "` is missing; the shape \"linear\" needs a finite number" + unit);
+  if (!linear && field->gradient)
+    reading.report(reading.said.where(key),
+                   '`' + key + "` goes with the shape \"linear\", not \"" + field->shape + '"');
+  return linear == field->gradient.has_value();
+}
+
+/// The body stays on its fixed ends, on the grid, and right side out.
+void check_displacement(Reading& reading) {
+  const Scene& scene = reading.scene;
+  const std::string table = "initial.displacement";
+  if (!check_gradient(reading, table, scene.initial_displacement, "")) return;
+  for (const std::string key : {"initial.displacement.amplitude", "body.length", "scheme.cells"})
+    if (!reading.has(key)) return;
+  const InitialField& field = *scene.initial_displacement;
+  const double length = scene.body.length;
+  const Origin& at = reading.said.where(table);
+  const bool moves = scene.kinematics == Kinematics::finite;
+  if (moves && !(field.steepest(length) < 1.0 || (field.shape == "linear" && field.gradient > 0.0)))
+    reading.report(at,
+                   "`initial.displacement` turns the body inside out: its gradient must be above -1, not " +
+                       toml_number(-field.steepest(length)));
+  const auto check_end = [&](const std::string& end, End kind, double place, double room) {
+    const double moved = field.at(place, length);
+    if (kind == End::fixed && std::abs(moved) > 1e-12 * length)
+      reading.report(at, "`initial.displacement` moves the " + end + " end by " + toml_number(moved) +
+                             " m, which is fixed");
+    const double outward = place > 0.0 ? moved : -moved;
+    if (kind == End::free && moves && outward > room)
+      reading.report(at, "`initial.displacement` moves the " + end + " end by " + toml_number(moved) +
+                             " m, off the grid, which reaches " + toml_number(room) +
+                             " m beyond it: raise `scheme.margin_cells`");
+  };
+  const double margin = scene.scheme.margin_cells * (length / scene.scheme.cells);
+  const auto& [from, to] = scene.grid;
+  check_end("left", scene.ends.left, 0.0, from ? scene.body.left() - *from : margin);
+  check_end("right", scene.ends.right, 1.0, to ? *to - scene.body.right() : margin);
 }
 
 /// One effect may hold an end, no more.
@@ -69,7 +103,8 @@ void check_held_ends(Reading& reading) {
 }  // namespace
 
 void check_body(Reading& reading) {
-  check_initial_velocity(reading);
+  check_gradient(reading, "initial.velocity", reading.scene.initial_velocity, " (1/s)");
+  check_displacement(reading);
   check_grid(reading);
   check_held_ends(reading);
 }

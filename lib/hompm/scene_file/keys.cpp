@@ -101,6 +101,17 @@ std::vector<KeyRow> make_key_table() {
       {"initial.velocity.gradient", number("1/s"), derived, "", "with the shape linear, and only there",
        "of the velocity along X", [](Scene& scene) -> Slot { return &scene.initial_velocity->gradient; }},
 
+      {"initial.displacement.shape", word({"sine", "uniform", "linear"}), missing, "", "zero at fixed ends",
+       "displacement at the start, from which stretch and stress follow: as the velocity",
+       [](Scene& scene) -> Slot { return &scene.initial_displacement->shape; }},
+      {"initial.displacement.amplitude", number("m"), missing, "", "", "of the displacement at the start",
+       [](Scene& scene) -> Slot { return &scene.initial_displacement->amplitude; }},
+      {"initial.displacement.mode", whole(1.0, 1e6), standard, "1", "", "half waves over the body",
+       [](Scene& scene) -> Slot { return &scene.initial_displacement->mode; }},
+      {"initial.displacement.gradient", number(""), derived, "", "with the shape linear, and only there",
+       "of the displacement along X: the strain",
+       [](Scene& scene) -> Slot { return &scene.initial_displacement->gradient; }},
+
       {"ends.left", end, standard, "\"fixed\"", "", "the end at X = 0",
        [](Scene& scene) -> Slot { return &scene.ends.left; }},
       {"ends.right", end, standard, "\"fixed\"", "", "the end at X = length",
@@ -216,6 +227,9 @@ std::vector<KeyRow> make_key_table() {
 constexpr std::array optional_tables{
     OptionalTable{"initial.velocity", [](const Scene& scene) { return scene.initial_velocity.has_value(); },
                   [](Scene& scene) { scene.initial_velocity.emplace(); }},
+    OptionalTable{"initial.displacement",
+                  [](const Scene& scene) { return scene.initial_displacement.has_value(); },
+                  [](Scene& scene) { scene.initial_displacement.emplace(); }},
     OptionalTable{"rest", [](const Scene& scene) { return scene.rest.has_value(); },
                   [](Scene& scene) { scene.rest.emplace(); }}};
 

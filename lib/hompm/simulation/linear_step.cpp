@@ -14,6 +14,7 @@ Scene linear_scene(const Scene& scene) {
   detail::leave_own_stress(linear);
   linear.bodies.clear();
   linear.initial_velocity.reset();
+  linear.initial_displacement.reset();
   linear.scheme.relaxation_rate = 0.0;
   if (linear.scheme.choices.sequence == Sequence::usf) linear.scheme.choices.sequence = Sequence::musl;
   return linear;
