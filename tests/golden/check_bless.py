@@ -35,7 +35,9 @@ class Place:
         self.tree = self.work / "tree"
         self.golden = self.tree / "golden" / NAME
         shutil.copytree(ROOT / "golden" / NAME, self.golden)
-        shutil.copy(ROOT / "golden/bless", self.tree / "golden/bless")
+        for name in ("golden/bless", "lib/hompm/scheme/scheme_table.cpp"):  # the script, and where it finds the schemes
+            (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, self.tree / name)
         self.git("init", "--quiet")
         self.commit("first")
         self.tools = [self.work / name / "bin" for name in ("g++", "clang++")]

@@ -147,7 +147,8 @@ double velocity_of_noise(const Scene& scene, double time_step, int steps) {
   }
   for (int step = 0; step < steps; ++step) simulation.step();
   double largest = 0.0;
-  for (const double v : velocity) largest = std::max(largest, std::abs(v));
+  for (const double v : velocity)
+    if (!(std::abs(v) <= largest)) largest = std::abs(v);  // so that not a number is seen
   return largest;
 }
 
@@ -184,16 +185,39 @@ TEST_CASE("the critical step of each sequence of updates is that of its own step
   }
 }
 
-TEST_CASE("a transfer that damps keeps at least the critical step computed") {
-  const auto sequence = GENERATE(hompm::Sequence::musl, hompm::Sequence::usl);
-  for (const int kind : {0, 1, 2}) {
-    Scene scene = bar("bspline", 2, 4, "fixed", "linear");
-    auto& choices = scene.scheme.choices;
-    choices.sequence = sequence;
-    if (kind == 0) choices.transfer = hompm::Transfer::pic;
-    if (kind == 1) choices.transfer = hompm::Transfer::xpic;
-    if (kind == 2) choices.flip_fraction = 0.95;
-    INFO(kind << ", sequence " << static_cast<int>(sequence));
+TEST_CASE("the critical step of a transfer that damps is safe, and low by a factor of √2 at most") {
+  const auto sequence = GENERATE(hompm::Sequence::musl, hompm::Sequence::usl, hompm::Sequence::usf);
+  const std::string name = GENERATE("bspline", "cpdi", "tielen2017");
+  for (const int degree : {1, 2, 4})
+    for (const int kind : {0, 1, 2, 3}) {
+      if (name == "cpdi" && degree > 1) continue;
+      Scene scene = bar(name, degree, 4, "fixed", "linear");
+      auto& choices = scene.scheme.choices;
+      choices.sequence = sequence;
+      if (kind == 0) choices.transfer = hompm::Transfer::pic;
+      if (kind == 1) choices.transfer = hompm::Transfer::xpic;
+      if (kind == 2) choices.flip_fraction = 0.95;
+      if (kind == 3) choices.flip_fraction = 0.3;
+      INFO(name << " p = " << degree << ", kind " << kind << ", sequence " << static_cast<int>(sequence));
+      // The strain of USF sees what the filter left of the velocity: the true limit may lie higher still.
+      if (sequence == hompm::Sequence::usf)
+        CHECK(velocity_of_noise(scene, 0.98 * hompm::critical_time_step(scene), 10000) < 20.0);
+      else
+        check_both_sides(scene, std::sqrt(2.0));
+    }
+}
+
+TEST_CASE("dampings leave update stress last stable up to its critical step") {
+  const std::string scheme = GENERATE("classical", "bspline", "apic");
+  const std::string damping = GENERATE("mass-damping", "viscosity");
+  for (const double strength : {0.1, 1.0, 10.0}) {
+    INFO(scheme << ", " << damping << " " << strength);
+    Scene scene = bar(scheme, scheme == "classical" ? 1 : 2, 4, "fixed", "linear");
+    scene.scheme.choices.sequence = hompm::Sequence::usl;
+    hompm::EffectSpec effect;
+    effect.type = damping;
+    effect.parameters[damping == "viscosity" ? "viscosity" : "rate"] = strength;
+    scene.effects = {effect};
     CHECK(velocity_of_noise(scene, 0.98 * hompm::critical_time_step(scene), 10000) < 20.0);
   }
 }

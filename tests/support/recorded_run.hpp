@@ -19,7 +19,7 @@ inline Scene busy_scene(const std::string& scheme, int degree, const std::string
 end_time = 0.06
 kinematics = ")" + kinematics +
                          R"("
-body.length = 1.2
+body.length = 2.4
 material = { law = ")" + (kinematics == "finite" ? "hencky" : "linear") +
                          R"(", density = 1000, youngs_modulus = 1e4 }
 initial.velocity = { shape = "sine", amplitude = 0.3, mode = 1 }

@@ -17,6 +17,9 @@ EffectParameter which_end(const std::string& standard) {
 }
 
 std::string conflict_of_held_end(const EffectSpec&, const Scene& scene) {
+  if (scene.scheme.choices.transfer == Transfer::apic)
+    return "its impulse changes the velocity of particles, not its gradient: `scheme.transfer` must not be "
+           "\"apic\", `scheme.sequence` must be \"musl\"";
   if (scene.scheme.choices.sequence != Sequence::musl)
     return "its impulse goes to the grid through the particles: `scheme.sequence` must be \"musl\"";
   if (scene.scheme.choices.time_integrator != TimeIntegrator::blanes_moan) return "";

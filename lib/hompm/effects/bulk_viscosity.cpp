@@ -18,10 +18,13 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   const double h = cell_width(builder.scene);
   const double quadratic = spec.number("quadratic") * h * h;
   const double linear = spec.number("linear") * h * wave_speed(builder.scene);
-  join_viscous_stress(builder, "bulk viscosity",
-                      [quadratic, linear](const State& state, std::size_t p, double rate) {
-                        return rate < 0.0 ? state.density(p) * rate * (linear - quadratic * rate) : 0.0;
-                      });
+  join_viscous_stress(
+      builder, "bulk viscosity", [quadratic, linear](const State& state, std::size_t p, double rate) {
+        // Cells of the reference configuration are stretched with the material.
+        const double width = state.moves && !state.basis_moves ? state.particles.stretch[p] : 1.0;
+        const double jump = width * rate;
+        return rate < 0.0 ? state.density(p) * jump * (linear - quadratic * jump) : 0.0;
+      });
 }
 
 /// A jump over a cell is at most the speed at the start, and what the strain there becomes, as far as the

@@ -46,10 +46,9 @@ void displace(const InitialField& displacement, const Scene& scene, State& state
       },
       make_material(scene.material));
   if (!state.moves) return;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    p.position[i] = p.reference_position[i] + p.displacement[i];
-    p.volume[i] = p.reference_volume[i] * p.stretch[i];
-  }
+  for (std::size_t i = 0; i < p.size(); ++i) p.volume[i] = p.reference_volume[i] * p.stretch[i];
+  if (!state.basis_moves) return;
+  for (std::size_t i = 0; i < p.size(); ++i) p.position[i] = p.reference_position[i] + p.displacement[i];
   for (double& end : p.right_end) end = moved(end);
   state.left_boundary = moved(state.left_boundary);
   state.right_boundary = moved(state.right_boundary);

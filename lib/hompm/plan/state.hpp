@@ -84,6 +84,14 @@ struct State {
   GridFields fields;
   Balance balance;
 
+  /// Volumes (m) and densities (kg/m³) in the configuration on which the basis lives.
+  [[nodiscard]] const std::vector<double>& basis_volumes() const {
+    return basis_moves ? particles.volume : particles.reference_volume;
+  }
+  [[nodiscard]] double basis_density(std::size_t particle) const {
+    return basis_moves ? density(particle) : particles.reference_density[particle];
+  }
+
   /// ρ0/λ, kg/m³ (ρ0 with infinitesimal kinematics, where volumes stay).
   [[nodiscard]] double density(std::size_t particle) const {
     return moves ? particles.reference_density[particle] / particles.stretch[particle]

@@ -45,7 +45,8 @@ enum class VelocityProjection {
   consistent,     ///< of the reconstructed ρ and v, with the consistent mass
   least_squares,  ///< the grid velocity nearest to the particles': Σ m_p (Σ N_i v_i − v_p)² is least
 };
-/// The parts of a step in their order (Bardenhagen, J. Comput. Phys. 180 (2002) 383–403).
+/// The parts of a step in their order (Bardenhagen, J. Comput. Phys. 180 (2002) 383–403; MUSL: Sulsky, Zhou,
+/// Schreyer, Comput. Phys. Commun. 87 (1995) 236–252).
 enum class Sequence {
   musl,  ///< forces, particle velocities, these to the grid, stress: modified update stress last
   usl,   ///< forces, grid velocities, stress: update stress last

@@ -116,8 +116,8 @@ void check_choices(Reading& reading) {
   demand_that(!domains || !c.markers, "basis", of_hats + "markers` must be false: a marker has no domain");
   demand_that(!domains || !(reading.scene.scheme.relaxation_rate > 0.0), "basis",
               of_hats + "relaxation_rate` must be 0");
-  demand_that(!domains || reading.scene.scheme.cells >= 3 || !reading.has("scheme.cells"), "basis",
-              of_hats + "cells` must be at least 3");
+  demand_that(!domains || reading.scene.scheme.cells >= 3 || !reading.has("scheme.cells"), "cells",
+              "must be at least 3 with a basis of hat functions over domains");
   const bool has_fields = reconstructs(c.quadrature);
   const std::string needs_fields =
       "needs reconstructed fields: `scheme.quadrature` must be \"reconstructed\", \"reconstructed-exact\", "
@@ -152,9 +152,8 @@ void check_choices(Reading& reading) {
               "free_end",
               "= \"extension\" ties functions of a consistent mass: `scheme.acceleration_mass` or "
               "`scheme.velocity_projection` must have one");
-  demand_that(
-      c.transfer != Transfer::apic || c.sequence != Sequence::musl, "transfer",
-      "= \"apic\" gives back the velocity after the kick: `scheme.sequence` must be \"usl\" or \"usf\"");
+  demand_that(c.transfer != Transfer::apic || c.sequence == Sequence::usl, "transfer",
+              "= \"apic\" gives back the velocity after the kick: `scheme.sequence` must be \"usl\"");
   demand_that(c.transfer != Transfer::apic || c.velocity_projection == VelocityProjection::lumped, "transfer",
               "= \"apic\" is a projection of its own: `scheme.velocity_projection` must be \"lumped\"");
   demand_that(c.transfer == Transfer::flip || c.flip_fraction == 1.0, "flip_fraction",

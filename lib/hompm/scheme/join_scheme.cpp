@@ -26,8 +26,10 @@ void check_boundaries(const State& state) {
 /// With markers these are the ends of the body, without the ends of the outer particles.
 void find_boundaries(State& state) {
   const Particles& p = state.particles;
-  if (state.ends.left == End::free) state.left_boundary = p.position.front() - 0.5 * p.volume.front();
-  if (state.ends.right == End::free) state.right_boundary = p.position.back() + 0.5 * p.volume.back();
+  if (state.ends.left == End::free)
+    state.left_boundary = p.position.front() - 0.5 * state.basis_volumes().front();
+  if (state.ends.right == End::free)
+    state.right_boundary = p.position.back() + 0.5 * state.basis_volumes().back();
   check_boundaries(state);
 }
 
@@ -127,14 +129,12 @@ void join_forces(PlanBuilder& builder, const Shared& fields) {
   } else if (builder.scene.scheme.choices.quadrature == Quadrature::mixed) {
     builder.add(Phase::internal_force, "internal force from the cells", detail::mixed_internal_force);
   } else {
-    const bool total = builder.scene.scheme.choices.formulation == Formulation::total_lagrangian;
-    builder.add(Phase::internal_force, "internal force from the particles", [total](State& state) {
+    builder.add(Phase::internal_force, "internal force from the particles", [](State& state) {
       auto& force = state.fields.internal_force;
       std::fill(force.begin(), force.end(), 0.0);
       const Particles& particles = state.particles;
-      const auto& volumes = total ? particles.reference_volume : particles.volume;
       scatter<P>(state, state.basis.gradients, force,
-                 [volume = volumes.data(), stress = particles.stress.data()](std::size_t p) {
+                 [volume = state.basis_volumes().data(), stress = particles.stress.data()](std::size_t p) {
                    return volume[p] * stress[p];
                  });
     });

@@ -6,7 +6,7 @@ namespace hompm::detail {
 
 void mixed_internal_force(State& state) {
   const Particles& p = state.particles;
-  const std::vector<double>& volumes = state.basis_moves ? p.volume : p.reference_volume;
+  const std::vector<double>& volumes = state.basis_volumes();
   const std::int32_t* first = state.basis.first.data();
   const double inverse_width = 1.0 / state.grid.cell_width();
   const auto is_full = [&](int cell) {

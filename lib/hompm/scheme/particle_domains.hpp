@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include <hompm/plan/invalid.hpp>
 #include <hompm/plan/state.hpp>
@@ -145,7 +144,7 @@ inline void evaluate_domains(State& state, Basis basis) {
     case Basis::uniform_domains:
       return mean_around(particles.reference_volume);
     case Basis::contiguous_domains:
-      return mean_around(particles.volume);
+      return mean_around(state.basis_volumes());
     case Basis::carried_domains:
       return for_particles([&](std::size_t p) {
         return weigh_domain<DomainValues::ends>(state, p, carried(state, p), values, gradients);

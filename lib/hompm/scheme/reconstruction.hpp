@@ -74,7 +74,7 @@ class ReconstructionFrom final : public Reconstruction {
 
   void update_sites(const State& state) override {
     const auto& x = state.particles.position;
-    for (std::size_t i = 0; i < density_.size(); ++i) density_[i] = state.density(i);
+    for (std::size_t i = 0; i < density_.size(); ++i) density_[i] = state.basis_density(i);
     const std::size_t bad =
         density_.empty() ? sites_.factorise(x) : sites_.factorise_and_fit(x, density_, density_fit_);
     if (bad != 0) throw_out_of_order(state, bad);

@@ -58,7 +58,12 @@ CriticalStep::CriticalStep(const Scene& scene)
     : phase_(largest_stable_phase(splitting(scene.scheme.choices.time_integrator))),
       effects_(small_motion(scene)),
       relaxation_rate_(scene.scheme.relaxation_rate),
-      linear_(scene) {}
+      linear_(scene) {
+  if (scene.scheme.choices.sequence != Sequence::usl) return;
+  // Dampings see the grid velocity with the kick as it is, smoothed by nothing: at most twice as strong.
+  effects_.damping_rate *= 2.0;
+  effects_.viscous_time *= 2.0;
+}
 
 double CriticalStep::at(const State& state) {
   linear_.linearise(state);

@@ -31,6 +31,13 @@ double stiffness(const Law& law, const SchemeChoices& choices, double stress, do
   return choices.formulation == Formulation::total_lagrangian ? per_strain / stretch : per_strain;
 }
 
+/// The least factor by which a transfer multiplies the velocity of a mode in a step. Projections by least
+/// squares leave alone what the grid sees.
+double least_kept(const SchemeChoices& choices) {
+  if (choices.velocity_projection == VelocityProjection::least_squares) return 1.0;
+  return choices.transfer == Transfer::flip ? choices.flip_fraction : 0.0;
+}
+
 }  // namespace
 
 LinearStep::LinearStep(const Scene& scene)
@@ -93,13 +100,17 @@ void LinearStep::apply(const std::vector<double>& stress, std::vector<double>& r
   p.stress = stress;
   run_step();
   for (std::size_t i = 0; i < stiffening_.size(); ++i) result[i] = p.stress[i] * stiffening_[i];
-  if (choices_.sequence != Sequence::usl) return;
 
-  for (double& r : result) r *= 2.0;
-  if (choices_.transfer != Transfer::flip || choices_.flip_fraction < 1.0) return;
+  const double kept = least_kept(choices_);
+  const bool last = choices_.sequence == Sequence::usl;
+  const double direct = last ? 2.0 : 2.0 / (1.0 + kept);
+  for (double& r : result) r *= direct;
+  if (!last || kept == 0.0) return;
   std::fill(p.stress.begin(), p.stress.end(), 0.0);
   run_step();
-  for (std::size_t i = 0; i < stiffening_.size(); ++i) result[i] -= p.stress[i] * stiffening_[i];
+  const double through_particles = 2.0 * kept / (1.0 + kept);
+  for (std::size_t i = 0; i < stiffening_.size(); ++i)
+    result[i] -= through_particles * (p.stress[i] * stiffening_[i]);
 }
 
 void LinearStep::run_step() {

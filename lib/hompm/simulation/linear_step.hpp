@@ -14,9 +14,10 @@ namespace hompm {
 /// docs/stability.md). Without effects and relaxation. Of stresses, because particles do not feel what is
 /// left undetermined on the grid: the function on a cut span that holds no particle.
 ///
-/// With USL the kick goes straight to the grid, K, and once more through the particles, K': the step ends
-/// where 2 K − K' does what K does with MUSL, and where the transfer damps, no later than with 2 K. USF has
-/// the eigenvalues of MUSL.
+/// A transfer that keeps the part f of a mode's velocity in a step, 0 ≤ f ≤ 1, lowers the limit: what counts
+/// is 2/(1 + f) times that turn. With USL the kick goes straight to the grid, K, and once more through the
+/// particles, K': what counts is 2 K − 2 f/(1 + f) K'. f is taken as small as the transfer can make it. USF
+/// has the limit of MUSL.
 class LinearStep {
  public:
   /// Throws as `Simulation`.

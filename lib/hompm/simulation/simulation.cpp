@@ -83,6 +83,8 @@ Simulation::Simulation(const Scene& scene, double time_step)
   couplings_ = join_pairs(scene, builders);
   for (PlanBuilder& builder : builders) plans_.push_back(std::move(builder.plan));
   for (State& state : states_) state.time_step = time_step;
+  std::vector<std::vector<double>> velocities;
+  for (const State& state : states_) velocities.push_back(state.particles.velocity);
   try {
     run(start_phases, states_);
   } catch (const InvalidRun& error) {
@@ -90,6 +92,11 @@ Simulation::Simulation(const Scene& scene, double time_step)
     throw SceneError(origin == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : origin->second,
                      "the scene cannot be started: " + error.reason);
   }
+  // A transfer that damps does so in steps. A projection by least squares keeps what the grid sees, and the
+  // rest would go in the first step.
+  if (scene.scheme.choices.velocity_projection != VelocityProjection::least_squares)
+    for (std::size_t body = 0; body < states_.size(); ++body)
+      states_[body].particles.velocity = velocities[body];
   for (State& state : states_) state.balance = {};
   const HistoryRow start = history(0.0);
   start_energy_ = total_energy(start);
