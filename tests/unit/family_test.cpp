@@ -377,3 +377,26 @@ TEST_CASE("a transfer that damps leaves the velocity at the start as the scene s
               .velocity);
   }
 }
+
+TEST_CASE("least squares of parabolas refuse a basis of higher degree, for those who set it by hand") {
+  auto scene = built_in("bar", "small", {{"scheme.name", "mls"}});
+  scene.scheme.degree = 4;
+  CHECK(contains(message_of<hompm::Error>([&] { Simulation(scene, 1e-3); }),
+                 "degree 2 with a basis of degree 4"));
+}
+
+TEST_CASE("update stress first takes the stress from the stretch, too") {
+  const auto stresses = [](const std::string& update) {
+    const auto scene = built_in("bar", "large",
+                                {{"scheme.name", "bspline"},
+                                 {"scheme.sequence", "usf"},
+                                 {"scheme.stress_update", update},
+                                 {"end_time", "0.5"}});
+    Simulation simulation(scene, 1e-3);
+    for (int step = 0; step < 500; ++step) simulation.step();
+    return simulation.state().particles.stress;
+  };
+  const double difference = largest_difference(stresses("incremental"), stresses("from-stretch"));
+  CHECK(difference > 0.0);
+  CHECK(difference < 1e-2);  // of 10 Pa: the increments are of first order in the step
+}

@@ -149,11 +149,10 @@ inline void evaluate_domains(State& state, Basis basis) {
       return for_particles([&](std::size_t p) {
         return weigh_domain<DomainValues::ends>(state, p, carried(state, p), values, gradients);
       });
-    default: {
-      const Nodes material = nodes_of(state);
-      return for_particles(
-          [&](std::size_t p) { return smooth_gradients(state, p, material, values, gradients); });
-    }
+    default:
+      return for_particles([&, material = nodes_of(state)](std::size_t p) {
+        return smooth_gradients(state, p, material, values, gradients);
+      });
   }
 }
 

@@ -146,12 +146,11 @@ void join_transfer(PlanBuilder& builder, const std::shared_ptr<AffineVelocity<P>
       return;
     case Transfer::pic:
       return join_velocity_change(builder, "particle velocity (PIC)", take_velocity<P>);
-    case Transfer::xpic: {
-      const auto hidden = std::make_shared<HiddenVelocity<P>>(builder);
+    case Transfer::xpic:
       return join_velocity_change(
-          builder, "particle velocity (XPIC)", [hidden](State& state) { hidden->remove(state); },
+          builder, "particle velocity (XPIC)",
+          [hidden = std::make_shared<HiddenVelocity<P>>(builder)](State& state) { hidden->remove(state); },
           "per particle: hidden velocity; per function: its projection");
-    }
     case Transfer::apic:
       join_velocity_change(
           builder, "particle velocity and its gradient (APIC)",
