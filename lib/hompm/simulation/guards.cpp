@@ -34,7 +34,7 @@ double looked_at(const State& state) {
     if (!std::isfinite(stress[i])) throw_not_finite(state, i, "stress");
     if (i > 0 && x[i] < x[i - 1]) throw_out_of_order(state, i);
   }
-  return 0.5 * twice;  // LCOV_EXCL_LINE: one of the above is so
+  return 0.5 * twice;
 }
 
 }  // namespace
