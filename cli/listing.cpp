@@ -63,7 +63,7 @@ std::string catalogue_text() {
 
 namespace {
 
-using Phases = std::array<std::pair<Phase, std::string>, 10>;
+using Phases = std::array<std::pair<Phase, std::string>, static_cast<std::size_t>(Phase::count_)>;
 
 Phases phases_of(bool moves) {
   return {{
@@ -74,6 +74,7 @@ Phases phases_of(bool moves) {
       {Phase::damping_force, "damping force"},
       {Phase::acceleration, "acceleration"},
       {Phase::velocity, "velocity"},
+      {Phase::transfer, "transfer"},
       {Phase::constraint, "constraint"},
       {Phase::work, "work"},
       {Phase::motion, "motion"},

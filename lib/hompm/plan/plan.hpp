@@ -22,6 +22,7 @@ enum class Phase {
   damping_force,   ///< effects that need the whole out-of-balance force
   acceleration,    ///< grid acceleration, particle velocity
   velocity,        ///< particle velocity to the grid
+  transfer,        ///< what particles keep of their own velocity
   constraint,      ///< conditions on the velocity of an end, by the impulse that meets them
   work,            ///< effects book what their forces did
   motion,          ///< displacement, stretch, stress

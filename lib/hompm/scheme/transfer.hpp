@@ -11,12 +11,15 @@ namespace hompm::detail {
 /// ½ Σ m_p v_p², J/m²
 double kinetic_energy(const Particles& particles);
 
-/// Adds a stage that changes particle velocities. What it takes of Σ ½ m v² is booked as dissipated.
+/// Adds a stage that changes particle velocities. What it takes of Σ ½ m v² is booked as dissipated. A change
+/// that damps does so in steps; after least squares the velocity at the start is projected, too.
 template <class Change>
 void join_velocity_change(PlanBuilder& builder, const std::string& name, Change change,
                           const std::string& arrays = {}) {
+  const bool keeps_what_the_grid_sees =
+      builder.scene.scheme.choices.velocity_projection == VelocityProjection::least_squares;
   builder.add(
-      Phase::velocity, name,
+      keeps_what_the_grid_sees ? Phase::velocity : Phase::transfer, name,
       [change](State& state) {
         const double before = kinetic_energy(state.particles);
         change(state);
@@ -68,7 +71,7 @@ class HiddenVelocity {
   }
 
  private:
-  std::function<double(const State&, const std::vector<double>&, std::vector<double>&)> project_;
+  decltype(PlanBuilder::project) project_;
   int order_;
   std::vector<double> hidden_, projected_;
 };
@@ -104,10 +107,8 @@ class AffineVelocity {
     }
   }
 
-  /// v_p = Σ N_i v_i; c_p = Σ N_i v_i (x_i − x_p) / Σ N_i (x_i − x_p)², which is Σ N_i′ v_i for hat
-  /// functions.
-  void take_back(State& state) const {
-    take_velocity<P>(state);
+  /// c_p = Σ N_i v_i (x_i − x_p) / Σ N_i (x_i − x_p)², which is Σ N_i′ v_i for hat functions.
+  void take_gradient(State& state) const {
     auto& gradient = state.particles.velocity_gradient;
     const auto& velocity = state.fields.velocity;
     const Gather<P> slope(state, state.basis.gradients, velocity);
@@ -152,9 +153,10 @@ void join_transfer(PlanBuilder& builder, const std::shared_ptr<AffineVelocity<P>
           [hidden = std::make_shared<HiddenVelocity<P>>(builder)](State& state) { hidden->remove(state); },
           "per particle: hidden velocity; per function: its projection");
     case Transfer::apic:
-      join_velocity_change(
-          builder, "particle velocity and its gradient (APIC)",
-          [affine](State& state) { affine->take_back(state); }, "per function: abscissa");
+      builder.add(
+          Phase::velocity, "gradient of the particle velocity (APIC)",
+          [affine](State& state) { affine->take_gradient(state); }, "per function: abscissa");
+      join_velocity_change(builder, "particle velocity (PIC)", take_velocity<P>);
   }
 }
 

@@ -13,9 +13,10 @@ namespace {
 
 constexpr std::array phases_after_geometry{Phase::end_stress,    Phase::internal_force, Phase::external_force,
                                            Phase::damping_force, Phase::acceleration,   Phase::velocity,
-                                           Phase::constraint,    Phase::work,           Phase::motion};
+                                           Phase::transfer,      Phase::constraint,     Phase::work,
+                                           Phase::motion};
 constexpr auto force_phases = std::span(phases_after_geometry).first<5>();
-constexpr auto projection_phases = std::span(phases_after_geometry).subspan<5, 2>();
+constexpr auto projection_phases = std::span(phases_after_geometry).subspan<5, 3>();
 constexpr std::array start_phases{Phase::geometry, Phase::end_stress, Phase::internal_force, Phase::velocity};
 
 void check_particle_count(const SchemeSpec& scheme) {
@@ -83,8 +84,6 @@ Simulation::Simulation(const Scene& scene, double time_step)
   couplings_ = join_pairs(scene, builders);
   for (PlanBuilder& builder : builders) plans_.push_back(std::move(builder.plan));
   for (State& state : states_) state.time_step = time_step;
-  std::vector<std::vector<double>> velocities;
-  for (const State& state : states_) velocities.push_back(state.particles.velocity);
   try {
     run(start_phases, states_);
   } catch (const InvalidRun& error) {
@@ -92,11 +91,6 @@ Simulation::Simulation(const Scene& scene, double time_step)
     throw SceneError(origin == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : origin->second,
                      "the scene cannot be started: " + error.reason);
   }
-  // A transfer that damps does so in steps. A projection by least squares keeps what the grid sees, and the
-  // rest would go in the first step.
-  if (scene.scheme.choices.velocity_projection != VelocityProjection::least_squares)
-    for (std::size_t body = 0; body < states_.size(); ++body)
-      states_[body].particles.velocity = velocities[body];
   for (State& state : states_) state.balance = {};
   const HistoryRow start = history(0.0);
   start_energy_ = total_energy(start);
