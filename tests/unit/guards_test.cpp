@@ -39,14 +39,18 @@ struct Flight {
 
 }  // namespace
 
-TEST_CASE("a velocity or a stress that is not finite is told with its particle, step and time") {
+TEST_CASE("a velocity, a stress or a position that is not finite is told with its particle, step and time") {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
-    Flight velocity, stress;
+    Flight velocity, stress, position, last;
     velocity.particles().velocity[7] = bad;
     CHECK_THAT(velocity.message(), contains("invalid at step 128, t = 0.128 s, particle 7: velocity is not"));
     stress.particles().stress[5] = bad;
     CHECK_THAT(stress.message(), contains("particle 5: stress is not a finite number"));
+    position.particles().position[3] = bad;
+    CHECK_THAT(position.message(), contains("particle 3: position is not a finite number"));
+    last.particles().position.back() = bad;
+    CHECK_THAT(last.message(), contains("position is not a finite number"));
   }
 }
 

@@ -10,6 +10,16 @@
 namespace hompm::detail {
 namespace {
 
+[[noreturn]] void throw_first_fault(const State& state) {
+  const Particles& p = state.particles;
+  for (std::size_t i = 0;; ++i) {
+    if (!std::isfinite(p.velocity[i])) throw_not_finite(state, i, "velocity");
+    if (!std::isfinite(p.stress[i])) throw_not_finite(state, i, "stress");
+    if (!std::isfinite(p.position[i])) throw_not_finite(state, i, "position");
+    if (i > 0 && p.position[i] < p.position[i - 1]) throw_out_of_order(state, i);
+  }
+}
+
 /// The kinetic energy, in the pass that looks at all particles.
 double looked_at(const State& state) {
   const Particles& p = state.particles;
@@ -20,7 +30,7 @@ double looked_at(const State& state) {
   const double* x = p.position.data();
   double twice = 0.0;
   double zeros = 0.0;  // not a number as soon as one stress or velocity is not finite
-  bool ordered = true;
+  bool ordered = std::isfinite(x[0]) && std::isfinite(x[count - 1]);  // and so what lies between them
   double before = x[0];
   for (std::size_t i = 0; i < count; ++i) {
     twice += mass[i] * velocity[i] * velocity[i];
@@ -28,12 +38,7 @@ double looked_at(const State& state) {
     ordered &= before <= x[i];
     before = x[i];
   }
-  if (zeros == 0.0 && ordered) return 0.5 * twice;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!std::isfinite(velocity[i])) throw_not_finite(state, i, "velocity");
-    if (!std::isfinite(stress[i])) throw_not_finite(state, i, "stress");
-    if (i > 0 && x[i] < x[i - 1]) throw_out_of_order(state, i);
-  }
+  if (zeros != 0.0 || !ordered) throw_first_fault(state);
   return 0.5 * twice;
 }
 
