@@ -68,16 +68,15 @@ void LinearStep::take(const State& at, double left, double right) {
   const double grid_right = at.grid.breakpoint(at.grid.cells());
   State& state = simulation_.state();
   Particles& p = state.particles;
-  const bool total = choices_.formulation == Formulation::total_lagrangian;
-  const auto& positions = total ? at.particles.reference_position : at.particles.position;
-  const auto& volumes = total ? at.particles.reference_volume : at.particles.volume;
+  const auto& positions = at.basis_moves ? at.particles.position : at.particles.reference_position;
+  const auto& volumes = at.basis_volumes();
   // Where an end stays, rounding must not carry it out of the grid.
   const auto moved = [&](double x) { return std::clamp(stretch * x + shift, grid_left, grid_right); };
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.position[i] = moved(positions[i]);
     p.volume[i] = stretch * volumes[i];
     p.mass[i] = stretch * at.particles.mass[i];
-    p.reference_density[i] = total ? at.particles.reference_density[i] : at.density(i);
+    p.reference_density[i] = at.basis_density(i);
   }
   for (std::size_t i = 0; i < p.right_end.size(); ++i) p.right_end[i] = moved(at.particles.right_end[i]);
   state.left_boundary = left;

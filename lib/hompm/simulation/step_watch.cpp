@@ -6,23 +6,25 @@
 namespace hompm::detail {
 
 StepWatch::StepWatch(const Scene& scene)
-    : moves_(scene.kinematics == Kinematics::finite),
-      total_(scene.scheme.choices.formulation == Formulation::total_lagrangian),
-      bodies_(bodies_of(scene)) {
+    : moves_(scene.kinematics == Kinematics::finite), bodies_(bodies_of(scene)) {
   for (const Scene* body : bodies_) materials_.push_back(make_material(body->material));
 }
 
 double StepWatch::fastest_wave(const std::vector<State>& states) const {
   double largest = 0.0;
-  for (std::size_t body = 0; body < states.size(); ++body)
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    const State& state = states[body];
+    const Particles& p = state.particles;
     std::visit(
-        [&, &p = states[body].particles](const auto& law) {
-          for (std::size_t i = 0; i < p.size(); ++i)
-            largest =
-                std::max(largest, total_ ? law.tangent(p.stretch[i]) / p.reference_density[i]
-                                         : law.modulus(p.stress[i], p.stretch[i]) / states[body].density(i));
+        [&](const auto& law) {
+          for (std::size_t i = 0; i < p.size(); ++i) {
+            const double modulus =
+                state.basis_moves ? law.modulus(p.stress[i], p.stretch[i]) : law.tangent(p.stretch[i]);
+            largest = std::max(largest, modulus / state.basis_density(i));
+          }
         },
         materials_[body]);
+  }
   return std::sqrt(largest);
 }
 

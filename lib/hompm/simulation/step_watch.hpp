@@ -25,7 +25,6 @@ class StepWatch {
 
  private:
   bool moves_;
-  bool total_;  ///< waves over the reference configuration count
   std::vector<const Scene*> bodies_;
   std::vector<Material> materials_;
   std::vector<CriticalStep> critical_;  ///< of each body; empty before the first check
