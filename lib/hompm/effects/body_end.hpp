@@ -20,7 +20,8 @@ inline double outward(Side side) { return side == Side::right ? 1.0 : -1.0; }
 Side side_of(const EffectSpec& spec);
 EffectParameter which_end(const std::string& standard);
 
-/// Why what holds an end does not go with the scene: it takes kicks that go forward in time.
+/// Why what holds an end does not go with the scene, "" where it does: its impulse goes to the grid by the
+/// velocity of the particles (musl, not APIC), in kicks that go forward in time.
 std::string conflict_of_held_end(const EffectSpec& spec, const Scene& scene);
 
 /// A marker on this end carries the stress of its own stretch, not one that is applied: what holds the end

@@ -106,7 +106,7 @@ State initial_state(const Scene& scene) {
   if (scene.initial_displacement) displace(*scene.initial_displacement, scene, state);
 
   const std::size_t stencil =
-      choices.basis == Basis::splines ? static_cast<std::size_t>(scene.scheme.degree) + 1 : 4;
+      static_cast<std::size_t>(choices.basis == Basis::splines ? scene.scheme.degree + 1 : domain_stencil);
   state.basis.stencil = stencil;
   state.basis.first.assign(sites, 0);
   state.basis.values.assign(sites * stencil, 0.0);

@@ -34,10 +34,13 @@ struct Particles {
   [[nodiscard]] std::size_t size() const { return mass.size(); }  ///< markers included
 };
 
+/// Hat functions that a particle sees by its domain, which may touch three cells, or by smoothed gradients.
+inline constexpr int domain_stencil = 4;
+
 /// Grid functions at the particles: for each particle the first function that is not zero there, and the
 /// values and gradients (1/m) of `stencil` functions from that one on.
 struct BasisAtParticles {
-  std::size_t stencil = 0;  ///< degree + 1 for splines
+  std::size_t stencil = 0;  ///< degree + 1 for splines, else `domain_stencil`
   std::vector<std::int32_t> first;
   std::vector<double> values;
   std::vector<double> gradients;

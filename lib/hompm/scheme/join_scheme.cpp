@@ -190,7 +190,7 @@ void join(const Material& material, PlanBuilder& builder) {
 
 void join_scheme(const Material& material, PlanBuilder& builder) {
   if (builder.scene.scheme.choices.basis != Basis::splines)
-    return join<detail::domain_stencil - 1>(material, builder);
+    return join<domain_stencil - 1>(material, builder);
   switch (builder.scene.scheme.degree) {
     case 1:
       return join<1>(material, builder);

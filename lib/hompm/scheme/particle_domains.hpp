@@ -8,9 +8,6 @@
 
 namespace hompm::detail {
 
-/// Nodes that a particle reaches, so that its domain may touch three cells.
-constexpr int domain_stencil = 4;
-
 struct Domain {
   double left, right;  ///< m
 };

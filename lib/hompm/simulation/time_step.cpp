@@ -38,7 +38,7 @@ TimeStepping time_stepping(const Scene& scene) {
 
   TimeStepping result;
   result.critical_time_step = std::numeric_limits<double>::infinity();
-  for (const Scene* body : bodies_of(scene))  // which know how their ends are held
+  for (const Scene* body : bodies_of(scene))  // effects between bodies, which hold their ends, included
     result.critical_time_step = std::min(result.critical_time_step, critical_time_step(*body));
   const double asked = asked_step(scene, result.critical_time_step);
   if (asked > result.critical_time_step && !scene.scheme.allow_unstable)
