@@ -114,7 +114,7 @@ hompm::Checkpoint starting_point(const hompm::Scene& scene, const po::variables_
 }
 
 /// The trace that --trace asks for; nothing without.
-std::unique_ptr<hompm::Trace> open_trace(const hompm::Scene& scene, const po::variables_map& given) {
+std::unique_ptr<hompm::Trace> open_trace(const po::variables_map& given) {
   hompm::TraceOptions options;
   if (given.count("trace-values")) {
     if (!given.count("trace")) throw UsageError("--trace-values goes with --trace");
@@ -122,7 +122,6 @@ std::unique_ptr<hompm::Trace> open_trace(const hompm::Scene& scene, const po::va
         hompm::cli::parse_steps(given["trace-values"].as<std::string>(), "--trace-values", 0);
   }
   if (!given.count("trace")) return nullptr;
-  if (!scene.bodies.empty()) throw UsageError("--trace follows one body; the scene has several");
   return std::make_unique<hompm::Trace>(given["trace"].as<std::string>(), options);
 }
 
@@ -143,7 +142,7 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
     return hompm::cli::success;
   }
   hompm::RunFolder folder(output_folder(given, scene), begin.vtk, !scene.bodies.empty());
-  const auto trace = open_trace(scene, given);
+  const auto trace = open_trace(given);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return begin.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -32,6 +32,7 @@ void print_difference(const TraceDifference& d) {
   std::cout << ", " << d.stage;
   if (!d.called_by.empty()) std::cout << " (" << d.called_by << ")";
   std::cout << ", " << d.field;
+  if (d.body) std::cout << " of body " << *d.body;
   if (!d.values) {
     std::cout << "\n  its values are not in " << d.missing_in
               << ": run both scenes again with --trace-values " << d.step << "\n";
@@ -58,6 +59,7 @@ void print_text(const TraceComparison& found) {
 nlohmann::ordered_json json_of(const TraceDifference& d) {
   nlohmann::ordered_json json{
       {"step", d.step}, {"part", d.part}, {"stage", d.stage}, {"called_by", d.called_by}, {"field", d.field}};
+  if (d.body) json["body"] = *d.body;
   if (d.values)
     json.update({{"place", d.values->place},
                  {"a", hex(d.values->a)},

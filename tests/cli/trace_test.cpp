@@ -50,6 +50,24 @@ TEST_CASE("two runs are traced and compared: 0 identical, 3 with the place at wh
   CHECK_THAT(without.out, contains("its values are not in A: run both scenes again with --trace-values 0"));
 }
 
+TEST_CASE("traces of several bodies say in which one they part") {
+  const TemporaryFolder scratch;
+  const auto here = [&](const std::string& command) {
+    return run_command("cd " + quoted(scratch.path().string()) + " && " + command);
+  };
+  const std::string bodies = "--scene " HOMPM_SOURCE_DIR "/docs/scenes/contact.toml --cells 4 ";
+  REQUIRE(here(tool + bodies + "--trace a").exit_code == 0);
+  REQUIRE(here(tool + bodies + "--set body[1].material.density=1.0000000000000002 --trace b").exit_code == 0);
+  const auto other = here(diff + "a b");
+  CHECK(other.exit_code == 3);
+  CHECK_THAT(other.out,
+             contains("first difference: step 0, the state with which the traces begin, total_mass "
+                      "of body 1\n"));
+  const auto json = nlohmann::json::parse(here(diff + "--json a b").out);
+  CHECK(json["first"]["body"] == 1);
+  CHECK(json["first"]["field"] == "total_mass");
+}
+
 TEST_CASE("what cannot be traced or compared: exit 2 or 5 and the reason") {
   const TemporaryFolder scratch;
   write_file(scratch / "text", "time,particle\n");

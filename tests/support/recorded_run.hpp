@@ -1,4 +1,4 @@
-// A run with all it reports, for comparing runs bit for bit, and a scene in which everything happens.
+// A run with all it reports, for comparing runs bit for bit, and scenes in which everything happens.
 #pragma once
 
 #include <string>
@@ -42,6 +42,34 @@ time_integrator = ")" + integrator +
                          R"("
 degree = )" + std::to_string(degree),
                      "busy scene", {});
+}
+
+/// Two bars in contact from the start that part again, of two materials, grids and loads; 30 steps.
+inline Scene colliding_bars(const std::string& integrator, const std::string& scheme = "high-order") {
+  return parse_scene(R"(
+end_time = 0.03
+ends = { left = "free", right = "free" }
+effect = [ { type = "contact" }, { type = "gravity", acceleration = -9.81, body = 1 },
+           { type = "viscosity", viscosity = 1, body = 0 } ]
+output = { snapshots = 3, history = 7 }
+[scheme]
+name = ")" + scheme + R"("
+cells = 8
+particles_per_cell = 4
+time_step = 1e-3
+time_integrator = ")" + integrator +
+                         R"("
+[[body]]
+length = 1
+material = { law = "neo-hookean", density = 1000, youngs_modulus = 1e4 }
+initial.velocity = { shape = "uniform", amplitude = 0.3 }
+[[body]]
+start = 1
+length = 1
+cells = 10
+material = { law = "hencky", density = 500, youngs_modulus = 1e4 }
+)",
+                     "colliding bars", {});
 }
 
 struct RecordedRun {

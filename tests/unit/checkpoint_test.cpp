@@ -72,6 +72,14 @@ TEST_CASE("a resumed run is bit-equal, for every scheme, degree, integrator, kin
     }
 }
 
+TEST_CASE("a resumed run of several bodies is bit-equal, body by body") {
+  const std::string scheme = GENERATE(as<std::string>{}, "classical", "tielen2017", "high-order");
+  for (const std::string integrator : {"euler-cromer", "leapfrog"}) {
+    INFO(scheme << ", " << integrator);
+    check_resuming(colliding_bars(integrator, scheme), 7);
+  }
+}
+
 TEST_CASE("a resumed run comes to rest in the same step") {
   const auto scene = built_in("column", "settled",
                               {{"scheme.cells", "4"}, {"rest.speed", "1e-2"}, {"scheme.time_step", "2e-3"}});

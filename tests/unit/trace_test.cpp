@@ -244,8 +244,9 @@ TEST_CASE("traces of other plans, states and lengths differ, and say how") {
   trace_of("b", {{"scheme.cells", "4"}, {"end_time", "0.01"}, {"scheme.name", "bspline"}});
   CHECK_THAT(messages(), contains("the plans differ: stage "));
   trace_of("b", {{"scheme.cells", "5"}, {"end_time", "0.01"}});
-  CHECK_THAT(messages(), contains("the states differ: field 11 is particles.reference_position of 16 values "
-                                  "in A and particles.reference_position of 20 values in B"));
+  CHECK_THAT(messages(),
+             contains("the states differ: field 11 is particles.reference_position with 16 values "
+                      "in A and particles.reference_position with 20 values in B"));
   trace_of("b", {{"scheme.cells", "4"}, {"end_time", "0.02"}});
   CHECK_THAT(messages(), contains("A ends at step") && contains("up to there they are the same"));
 }
@@ -283,7 +284,93 @@ TEST_CASE("a trace cut off anywhere is read as far as it goes, a damaged one is 
   other.bytes = hompm::detail::trace_magic;
   other.word(hompm::detail::trace_format + 1);
   CHECK_THAT(message_of<hompm::FileError>([&] { compare(other.bytes); }),
-             contains("the trace has the format 2"));
+             contains("the trace has the format 3"));
+}
+
+TEST_CASE("the trace of several bodies holds all of them, and changes no bit of their run") {
+  const TemporaryFolder scratch;
+  const auto scene = colliding_bars(GENERATE(as<std::string>{}, "euler-cromer", "leapfrog"));
+  const auto points = record_run(scene, 10).points;
+  write_trace(scene, scratch / "a");
+  write_trace(scene, scratch / "b");
+  CHECK((read_file(scratch / "a") == read_file(scratch / "b")));
+  write_trace(
+      scene, scratch / "b", [](Plan&) {}, {}, &points[1].point);
+  const auto found = hompm::compare_traces(scratch / "a", scratch / "b");
+  CHECK(found.identical);
+  CHECK(found.first_step == 20);
+  CHECK(found.last_step == 30);
+
+  hompm::Trace trace(scratch / "trace");
+  hompm::RunObserver observer;
+  observer.start = [&](hompm::Simulation& simulation) { trace.attach(scene, simulation); };
+  const auto traced = run(scene, time_stepping(scene), observer);
+  const auto plain = run(scene, time_stepping(scene));
+  CHECK(traced.final.velocity == plain.final.velocity);
+  CHECK(traced.end.residual == plain.end.residual);
+}
+
+TEST_CASE("one flipped bit of one body is found, in its own stages and between the bodies") {
+  struct Flip {
+    std::size_t body;  ///< 2: the coupling
+    std::string stage;
+    std::function<double&(State&)> value;
+    std::string named, field, place;
+    std::size_t named_body;
+  };
+  const auto& flip = GENERATE(values<Flip>({
+      {0, "displacement", [](State& s) -> double& { return s.particles.displacement[5]; },
+       "displacement of body 0", "particles.displacement", "particle 4", 0},
+      {1, "displacement", [](State& s) -> double& { return s.particles.displacement[5]; },
+       "displacement of body 1", "particles.displacement", "particle 36", 1},
+      {1, "gravity", [](State& s) -> double& { return s.fields.force[3]; }, "gravity of body 1", "grid.force",
+       "grid function 3", 1},
+      {1, "basis at the particles", [](State& s) -> double& { return s.basis.values[4 * 41 + 1]; },
+       "basis at the particles of body 1", "basis.values", "the marker at the right end, function 1 there",
+       1},
+      {2, "contact", [](State& s) -> double& { return s.particles.velocity[0]; }, "contact of bodies 0 and 1",
+       "particles.velocity", "the marker at the left end", 1},
+  }));
+  const TemporaryFolder scratch;
+  const auto scene = colliding_bars("euler-cromer");
+  double before = 0.0;
+  const auto damage = [&](State& state) {
+    double& value = flip.value(state);
+    before = value;
+    value = flipped(value, 2);
+  };
+  const auto traced = [&](const char* name, bool damaged) {
+    hompm::Trace trace(scratch / name);
+    hompm::RunObserver observer;
+    observer.start = [&](hompm::Simulation& simulation) {
+      if (damaged && flip.body < 2) in_stage(flip.stage, 17, 1, damage)(simulation.plan(flip.body));
+      if (damaged && flip.body == 2)
+        for (auto& coupling : simulation.couplings()) {
+          if (coupling.name != flip.stage) continue;
+          coupling.run = [&damage, run = coupling.run](State& left, State& right) {
+            run(left, right);
+            if (right.step == 17) damage(right);
+          };
+        }
+      trace.attach(scene, simulation);
+    };
+    hompm::run(scene, time_stepping(scene), observer);
+    trace.close();
+  };
+  traced("a", false);
+  traced("b", true);
+  const auto found = hompm::compare_traces(scratch / "a", scratch / "b");
+  CAPTURE(flip.named, flip.field);
+  REQUIRE(found.first);
+  CHECK(found.first->step == 17);
+  CHECK(found.first->stage == flip.named);
+  CHECK(found.first->field == flip.field);
+  CHECK(found.first->body == flip.named_body);
+  REQUIRE(found.first->values);
+  CHECK(found.first->values->place == flip.place);
+  CHECK(found.first->values->a == std::bit_cast<std::uint64_t>(before));
+  CHECK(found.first->values->distance == 4);
+  CHECK(found.first->values->differing == 1);
 }
 
 TEST_CASE("a trace that cannot be written stops the run; one of a run that fails is whole") {

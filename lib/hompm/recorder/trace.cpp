@@ -1,4 +1,5 @@
 #include <cstring>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,11 @@ namespace {
 constexpr std::size_t chunk = 1 << 16;  // bytes per write; whole words for the hash of the file
 constexpr const char* beginning = "beginning of the step, or of a part of it";
 
+struct StageName {
+  std::string name;
+  std::string called_by;
+};
+
 template <class Values>
 std::uint64_t hash_of(const Values& values) {
   detail::Hash hash;
@@ -31,68 +37,69 @@ class Trace::Recorder {
   Recorder(const std::filesystem::path& path, const TraceOptions& options)
       : file_(path, path), options_(options) {}
 
-  void begin(const Scene& scene, const Simulation& simulation) {
-    state_ = &simulation.state();
-    step_ = state_->step;
+  /// `stages` are those of all bodies and between them, in the order in which they run.
+  void begin(const Scene& scene, const Simulation& simulation, std::span<const StageName> stages) {
+    states_ = simulation.states();
+    step_ = states_.front().step;
     const BuildInfo& build = build_info();
     out_.bytes = detail::trace_magic;
     out_.word(detail::trace_format);
     out_.text("hompm " + build.version + " (" + build.commit + "), " + build.compiler + ", " +
               build.architecture);
     out_.text(scene_text(scene));
-    out_.word(state_->particles.markers);
+    out_.word(states_.front().particles.markers);
     out_.word(detail::word_of(step_));
-    std::vector<const Stage*> stages;
-    for (const auto& phase : simulation.plan().phases)
-      for (const Stage& stage : phase) stages.push_back(&stage);
     if (stages.size() + 1 >= detail::first_tag) throw Error("too many stages for a trace");
     out_.word(stages.size() + 1);
     out_.text(beginning);
     out_.text("");
-    for (const Stage* stage : stages) {
-      out_.text(stage->name);
-      out_.text(stage->called_by);
-    }
-    visit_fields(*state_, [&](std::string_view, Site, auto values) {
-      const auto bytes = std::as_bytes(values);
-      before_.emplace_back(bytes.begin(), bytes.end());
-    });
-    out_.word(before_.size());
-    visit_fields(*state_, [&](std::string_view name, Site site, auto values) {
-      using Value = typename decltype(values)::value_type;
+    for (const auto& [name, called_by] : stages) {
       out_.text(name);
-      out_.word(static_cast<std::uint64_t>(site));
-      out_.word(std::is_integral_v<Value> ? 1 : 0);
-      out_.word(values.size());
-      out_.word(hash_of(values));
-    });
+      out_.text(called_by);
+    }
+    for (const State& state : states_) {
+      first_field_.push_back(before_.size());
+      visit_fields(state, [&](std::string_view, Site, auto values) {
+        const auto bytes = std::as_bytes(values);
+        before_.emplace_back(bytes.begin(), bytes.end());
+      });
+    }
+    out_.word(before_.size());
+    for (std::size_t body = 0; body < states_.size(); ++body)
+      visit_fields(states_[body], [&](std::string_view name, Site site, auto values) {
+        using Value = typename decltype(values)::value_type;
+        out_.text(name);
+        out_.word(body);
+        out_.word(static_cast<std::uint64_t>(site));
+        out_.word(std::is_integral_v<Value> ? 1 : 0);
+        out_.word(values.size());
+        out_.word(hash_of(values));
+      });
     choose_values();
   }
 
   /// A step, or a part of one, begins; called more than once for each.
-  void begin_part(const State& state) {
-    if (&state != state_) return;  // a copy, on which an output is computed
-    if (!in_part_) {
-      in_part_ = true;
-      if (state.step != step_) {
-        step_ = state.step;
-        out_.word<2>(detail::next_step);
-        choose_values();
-      } else {
-        out_.word<2>(detail::next_part);
-      }
+  void begin_part(std::size_t body, const State& state) {
+    if (!is_run(body, state) || std::exchange(in_part_, true)) return;
+    if (state.step != step_) {
+      step_ = state.step;
+      out_.word<2>(detail::next_step);
+      choose_values();
+    } else {
+      out_.word<2>(detail::next_part);
     }
-    record(0, state);
+    for (std::size_t each = 0; each < states_.size(); ++each) record(0, each, states_[each]);
   }
 
-  void end_part(const State& state) {
-    if (&state == state_) in_part_ = false;
+  /// The last stage of a body is through.
+  void end_part(std::size_t body, const State& state) {
+    if (is_run(body, state) && body + 1 == states_.size()) in_part_ = false;
   }
 
-  /// What `stage` changed.
-  void record(std::uint16_t stage, const State& state) {
-    if (&state != state_) return;
-    std::size_t field = 0;
+  /// What `stage` changed in a body.
+  void record(std::uint16_t stage, std::size_t body, const State& state) {
+    if (!is_run(body, state)) return;
+    std::size_t field = first_field_[body];
     visit_fields(state, [&](std::string_view, Site, auto values) {
       const auto bytes = std::as_bytes(values);
       auto& before = before_[field];
@@ -124,13 +131,17 @@ class Trace::Recorder {
   }
 
  private:
+  /// Not a copy, on which an output is computed.
+  [[nodiscard]] bool is_run(std::size_t body, const State& state) const { return &state == &states_[body]; }
+
   /// Of the step that begins.
   void choose_values() {
     const bool before =
         std::exchange(with_values_, step_ >= options_.values_from && values_written_ < options_.values_bytes);
     if (!with_values_ || before) return;
     out_.word<2>(detail::all_values);
-    visit_fields(*state_, [&](std::string_view, Site, auto values) { write_values(values); });
+    for (const State& state : states_)
+      visit_fields(state, [&](std::string_view, Site, auto values) { write_values(values); });
   }
 
   template <class Values>
@@ -153,7 +164,8 @@ class Trace::Recorder {
   detail::Hash hash_;
   std::uint64_t written_ = 0;
   std::size_t values_written_ = 0;
-  const State* state_ = nullptr;
+  std::span<const State> states_;               ///< of the bodies
+  std::vector<std::size_t> first_field_;        ///< of each body
   std::vector<std::vector<std::byte>> before_;  ///< of each field
   std::int64_t step_ = 0;
   bool in_part_ = false;
@@ -173,25 +185,48 @@ Trace::~Trace() {
 
 void Trace::attach(const Scene& scene, Simulation& simulation) {
   Recorder* const recorder = recorder_.get();
-  recorder->begin(scene, simulation);
   const auto own = [](auto run) { return Stage{"trace", "", "trace", run}; };
-  const auto begin = own([recorder](State& state) { recorder->begin_part(state); });
-  auto& phases = simulation.plan().phases;
-  std::uint16_t number = 0;
-  for (auto& phase : phases) {
-    std::vector<Stage> traced;
-    for (Stage& stage : phase) {
-      traced.push_back(std::move(stage));
-      traced.push_back(own([recorder, index = ++number](State& state) { recorder->record(index, state); }));
+  const bool several = simulation.bodies() > 1;
+  std::vector<StageName> stages;  // in the order in which they run
+  std::vector<Coupling> couplings;
+  for (std::size_t phase = 0; phase < static_cast<std::size_t>(Phase::count_); ++phase) {
+    for (std::size_t body = 0; body < simulation.bodies(); ++body) {
+      std::vector<Stage> traced;
+      for (Stage& stage : simulation.plan(body).phases[phase]) {
+        stages.push_back({stage.name + (several ? " of body " + std::to_string(body) : ""), stage.called_by});
+        traced.push_back(std::move(stage));
+        traced.push_back(own([=, number = static_cast<std::uint16_t>(stages.size())](State& state) {
+          recorder->record(number, body, state);
+        }));
+      }
+      simulation.plan(body).phases[phase] = std::move(traced);
     }
-    phase = std::move(traced);
+    for (Coupling& coupling : simulation.couplings()) {
+      if (coupling.phase != static_cast<Phase>(phase)) continue;
+      const std::size_t left = coupling.left;
+      stages.push_back(
+          {coupling.name + " of bodies " + std::to_string(left) + " and " + std::to_string(left + 1),
+           coupling.called_by});
+      couplings.push_back(std::move(coupling));
+      couplings.push_back({static_cast<Phase>(phase), "trace", "trace", left,
+                           [=, number = static_cast<std::uint16_t>(stages.size())](State& a, State& b) {
+                             recorder->record(number, left, a);
+                             recorder->record(number, left + 1, b);
+                           }});
+    }
   }
-  // A step without geometry begins with the stresses at the ends.
-  for (const Phase first : {Phase::geometry, Phase::end_stress}) {
-    auto& phase = phases[static_cast<std::size_t>(first)];
-    phase.insert(phase.begin(), begin);
+  simulation.couplings() = std::move(couplings);
+  for (std::size_t body = 0; body < simulation.bodies(); ++body) {
+    auto& phases = simulation.plan(body).phases;
+    const auto begin = own([=](State& state) { recorder->begin_part(body, state); });
+    // A step without geometry begins with the stresses at the ends.
+    for (const Phase first : {Phase::geometry, Phase::end_stress}) {
+      auto& phase = phases[static_cast<std::size_t>(first)];
+      phase.insert(phase.begin(), begin);
+    }
+    phases.back().push_back(own([=](State& state) { recorder->end_part(body, state); }));
   }
-  phases.back().push_back(own([recorder](State& state) { recorder->end_part(state); }));
+  recorder->begin(scene, simulation, stages);
 }
 
 void Trace::close() { recorder_->close(); }

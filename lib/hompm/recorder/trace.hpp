@@ -26,8 +26,9 @@ class Trace {
   Trace(const Trace&) = delete;
   Trace& operator=(const Trace&) = delete;
 
-  /// Begins with the state that `simulation` has, and adds a stage of its own behind each stage of its plan;
-  /// they need this object as long as they run, and throw `FileError`. To be called once.
+  /// Begins with the states that `simulation` has, and adds a stage of its own behind each stage of its plans
+  /// and each of its couplings; they need this object as long as they run, and throw `FileError`. To be
+  /// called once.
   void attach(const Scene& scene, Simulation& simulation);
   /// Ends the trace. Throws `FileError`.
   void close();

@@ -30,25 +30,32 @@ std::uint64_t distance(std::uint64_t a, std::uint64_t b, bool is_integer) {
   return std::max(x, y) - std::min(x, y);
 }
 
-/// Particles and markers.
-std::size_t sites_of(const TraceFile& file) {
+/// Particles and markers of a body.
+std::size_t sites_of(const TraceFile& file, std::size_t body) {
   const auto& fields = file.fields;
-  return std::find_if(fields.begin(), fields.end(), [](const auto& f) { return f.site == Site::particle; })
-      ->size;
+  const auto of_body = [&](const auto& f) { return f.site == Site::particle && f.body == body; };
+  const auto found = std::find_if(fields.begin(), fields.end(), of_body);
+  return found == fields.end() ? 1 : found->size;
 }
 
-std::string particle_text(const TraceFile& file, std::size_t site) {
+/// Particles are numbered as in the tables, through all bodies.
+std::string particle_text(const TraceFile& file, std::size_t body, std::size_t site) {
   if (site < file.markers) return "the marker at the left end";
-  if (site >= sites_of(file) - file.markers) return "the marker at the right end";
-  return "particle " + std::to_string(site - file.markers);
+  if (site >= sites_of(file, body) - file.markers) return "the marker at the right end";
+  std::size_t number = site - file.markers;
+  for (std::size_t before = 0; before < body; ++before) number += sites_of(file, before) - 2 * file.markers;
+  return "particle " + std::to_string(number);
 }
+
+bool has_several_bodies(const TraceFile& file) { return file.fields.back().body > 0; }
 
 std::string place_of(const TraceFile& file, const TraceField& field, std::size_t entry) {
   if (field.site == Site::run) return "";
   if (field.site == Site::function) return "grid function " + std::to_string(entry);
-  if (field.site == Site::particle) return particle_text(file, entry);
-  const std::size_t stencil = field.size / sites_of(file);
-  return particle_text(file, entry / stencil) + ", function " + std::to_string(entry % stencil) + " there";
+  if (field.site == Site::particle) return particle_text(file, field.body, entry);
+  const std::size_t stencil = field.size / sites_of(file, field.body);
+  return particle_text(file, field.body, entry / stencil) + ", function " + std::to_string(entry % stencil) +
+         " there";
 }
 
 std::optional<TraceValues> first_values(const TraceFile& file, const TraceField& a, const TraceField& b) {
@@ -96,6 +103,7 @@ struct Pair {
                    .stage = stage.name,
                    .called_by = stage.called_by,
                    .field = x.name,
+                   .body = has_several_bodies(a) ? std::optional(x.body) : std::nullopt,
                    .values = first_values(a, x, y),
                    .missing_in = {}};
     if (x.values.empty()) found.first->missing_in = "A";
@@ -121,9 +129,10 @@ bool same_shape(Pair& pair) {
   }
   for (std::size_t i = 0; i < std::max(a.fields.size(), b.fields.size()); ++i) {
     const auto text = [&](const TraceFile& file) {
-      return i < file.fields.size() ? file.fields[i].name + " of " + std::to_string(file.fields[i].size) +
-                                          (file.fields[i].size == 1 ? " value" : " values")
-                                    : std::string("none");
+      if (i >= file.fields.size()) return std::string("none");
+      const TraceField& field = file.fields[i];
+      return field.name + (has_several_bodies(file) ? " of body " + std::to_string(field.body) : "") +
+             " with " + std::to_string(field.size) + (field.size == 1 ? " value" : " values");
     };
     if (text(a) == text(b)) continue;
     pair.differ("the states differ: field " + std::to_string(i) + in_both(text(a), text(b)));

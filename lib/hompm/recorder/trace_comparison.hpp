@@ -25,6 +25,7 @@ struct TraceDifference {
   std::string stage;
   std::string called_by;
   std::string field;
+  std::optional<std::size_t> body;    ///< whose field it is, in a scene of several
   std::optional<TraceValues> values;  ///< first that differ; none when they are not in both traces
   std::string missing_in;             ///< then "A", "B" or "A and B"
 };

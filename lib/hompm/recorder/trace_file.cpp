@@ -44,9 +44,10 @@ void TraceFile::read_header() {
   first_step = step_ = static_cast<std::int64_t>(in_.word());
   stages.resize(in_.count(16));
   for (TraceStage& stage : stages) stage = {in_.text(), in_.text()};
-  fields.resize(in_.count(40));
+  fields.resize(in_.count(48));
   for (TraceField& field : fields) {
     field.name = in_.text();
+    field.body = static_cast<std::size_t>(in_.word());
     field.site = static_cast<Site>(in_.word());
     field.is_integer = in_.word() != 0;
     field.size = static_cast<std::size_t>(in_.word());

@@ -21,6 +21,7 @@ struct TraceStage {
 
 struct TraceField {
   std::string name;
+  std::size_t body;
   Site site;
   bool is_integer;
   std::size_t size;         ///< entries

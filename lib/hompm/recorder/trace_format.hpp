@@ -7,7 +7,7 @@
 namespace hompm::detail {
 
 inline constexpr std::string_view trace_magic = "hompm trace\n\n\n\n\n";
-inline constexpr std::uint64_t trace_format = 1;
+inline constexpr std::uint64_t trace_format = 2;
 
 /// Two bytes that say what comes next. Any lower number is a stage: the hash of a field after it follows.
 enum TraceTag : std::uint16_t {

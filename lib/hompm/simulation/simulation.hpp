@@ -29,6 +29,7 @@ class Simulation {
   [[nodiscard]] State& state(std::size_t body = 0) { return states_[body]; }
   /// For recorders, which add stages of their own before a step.
   [[nodiscard]] Plan& plan(std::size_t body = 0) { return plans_[body]; }
+  [[nodiscard]] std::vector<Coupling>& couplings() { return couplings_; }
   [[nodiscard]] const std::vector<State>& states() const { return states_; }
   [[nodiscard]] const std::vector<Coupling>& couplings() const { return couplings_; }
 
