@@ -131,10 +131,3 @@ TEST_CASE("an emptied cell inside the body has no stress with mixed integration"
   CHECK(force[13] == 7.0);
   CHECK(force[14] == -7.0);
 }
-
-TEST_CASE(
-    "least squares of parabolas with splines of degree 4 are an error of the program that asks for them") {
-  auto scene = hompm::test::free_body({{"scheme.name", "bspline"}, {"scheme.degree", "4"}});
-  scene.scheme.choices.quadrature = hompm::Quadrature::moving_least_squares;
-  CHECK_THROWS_WITH(Simulation(scene, 1e-3), hompm::test::contains("a basis of degree 4"));
-}

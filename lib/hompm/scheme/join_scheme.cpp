@@ -64,8 +64,9 @@ Shared make_reconstruction(const State& state, const SchemeChoices& choices) {
           return reconstruction_from<P, per_half>(numerics::MovingLeastSquares(count), state, choices);
         return reconstruction_from<P, per_half>(numerics::TaylorLeastSquares(count, state.grid), state,
                                                 choices);
+      } else {
+        throw Error("least squares of degree 2 with a basis of degree " + std::to_string(P));
       }
-      throw Error("least squares of degree 2 with a basis of degree " + std::to_string(P));
   }
 }
 
