@@ -64,14 +64,14 @@ void LinearStep::linearise_with_cut(const State& state, double cut) {
 void LinearStep::take(const State& at, double left, double right) {
   const double stretch = (right - left) / (at.right_boundary - at.left_boundary);
   const double shift = left - stretch * at.left_boundary;
-  const double grid_left = at.grid.origin();
-  const double grid_right = at.grid.breakpoint(at.grid.cells());
+  const double most_left = at.ends.left == End::fixed ? left : at.grid.origin();
+  const double most_right = at.ends.right == End::fixed ? right : at.grid.breakpoint(at.grid.cells());
   State& state = simulation_.state();
   Particles& p = state.particles;
   const auto& positions = at.basis_moves ? at.particles.position : at.particles.reference_position;
   const auto& volumes = at.basis_volumes();
   // Where an end stays, rounding must not carry it out of the grid.
-  const auto moved = [&](double x) { return std::clamp(stretch * x + shift, grid_left, grid_right); };
+  const auto moved = [&](double x) { return std::clamp(stretch * x + shift, most_left, most_right); };
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.position[i] = moved(positions[i]);
     p.volume[i] = stretch * volumes[i];
