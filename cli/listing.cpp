@@ -8,6 +8,7 @@
 #include <hompm/effects/registry.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
+#include <hompm/plan/state_fields.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>
@@ -96,6 +97,25 @@ std::string stages_text(const hompm::Plan& plan, bool moves) {
   return text;
 }
 
+/// The arrays that the stages of a body work on: those of its state that are there.
+std::string arrays_text(const hompm::State& state) {
+  constexpr std::array<std::pair<hompm::Site, const char*>, 3> kinds{
+      {{hompm::Site::particle, "per particle: "},
+       {hompm::Site::particle_function, "per particle and function there: "},
+       {hompm::Site::function, "per grid function: "}}};
+  std::string text = "arrays of the state\n";
+  for (const auto& [site, title] : kinds) {
+    std::string names;
+    hompm::visit_fields(state, [&, wanted = site](std::string_view name, hompm::Site of, const auto&) {
+      if (of != wanted) return;
+      const bool own = name.starts_with("basis.");  // the others have their title in common
+      names += (names.empty() ? "" : ", ") + std::string(own ? name : name.substr(name.find('.') + 1));
+    });
+    text += "  " + std::string(title) + names + "\n";
+  }
+  return text;
+}
+
 std::string couplings_text(const hompm::Simulation& simulation) {
   std::string text;
   for (const auto& [phase, title] : phases_of(true))
@@ -116,6 +136,7 @@ std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& step
   for (std::size_t body = 0; body < simulation.bodies(); ++body) {
     if (simulation.bodies() > 1) text += "body " + std::to_string(body) + "\n";
     text += stages_text(simulation.plan(body), simulation.state(body).basis_moves);
+    text += arrays_text(simulation.state(body));
   }
   return text + couplings_text(simulation) + "effects absent: " + effects_left_out(scene) + "\n";
 }

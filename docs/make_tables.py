@@ -26,6 +26,7 @@ import tomllib
 sys.dont_write_bytecode = True
 import hard_cases  # noqa: E402
 import high_order_tables  # noqa: E402
+import jump_tables  # noqa: E402
 import stability_limits  # noqa: E402
 import verification_tables  # noqa: E402
 from table_tools import ROOT, Tools, error_of, order, settled_scene, short, table  # noqa: E402
@@ -519,7 +520,7 @@ PARTS = {
     "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
     "outside-effect": source("tests/package/drag.cpp", "cpp"),
-    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "hard-cases": hard_cases.hard_cases, "limit-own-stress": limit_own_stress, "parting": parting,
+    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "hard-cases": hard_cases.hard_cases, "jumps": jump_tables.jumps, "limit-own-stress": limit_own_stress, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,

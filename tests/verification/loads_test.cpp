@@ -141,8 +141,9 @@ TEST_CASE("a load that starts or ends with a jump is followed as far as a jump c
   const double coarse = error(load, amplitude, "high-order", 16);
   const double fine = error(load, amplitude, "high-order", 64);
   CAPTURE(coarse, fine);
-  // Fronts of some cells, with ripples: an order of 1/6 and more in the L2 norm.
-  CHECK(fine < 0.8 * coarse);
+  // Fronts of some cells, with ripples: order q/(2(q + 1)) in the L2 norm, 3/7 with waves of order q = 6
+  // (docs/method.md, Jumps). Two jumps that follow each other are not there yet with 16 cells.
+  CHECK(fine < (amplitude.duration > 0.0 ? 0.8 : 0.56) * coarse);
   CHECK(fine < 0.25);
 }
 

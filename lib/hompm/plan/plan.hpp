@@ -32,7 +32,7 @@ enum class Phase {
 struct Stage {
   std::string name;
   std::string arrays;     ///< what the stage owns beyond the state's arrays, for --explain
-  std::string called_by;  ///< "scheme tielen2017", "effect gravity (column.toml:19:1)"
+  std::string called_by;  ///< "scheme tielen2017 (column.toml:23:1)", "effect gravity (column.toml:19:1)"
   std::function<void(State&)> run;
 };
 

@@ -35,6 +35,13 @@ std::string called_by(const EffectSpec& spec) {
   return "effect " + spec.type + " (" + spec.origin.text() + ")";
 }
 
+/// With the line of the scene that names it, if one does.
+std::string called_by(const Scene& scene) {
+  const auto named = scene.origins.find("scheme.name");
+  const std::string where = named == scene.origins.end() ? "by default" : named->second.text();
+  return "scheme " + scene.scheme.name + " (" + where + ")";
+}
+
 void join_effects(const Scene& scene, PlanBuilder& builder) {
   for (const bool holding : {false, true})
     for (const EffectSpec& spec : scene.effects) {
@@ -77,7 +84,7 @@ Simulation::Simulation(const Scene& scene, double time_step)
     check_particle_count(body->scheme);
     materials_.push_back(make_material(body->material));
     builders.push_back({.scene = *body, .state = states_[builders.size()]});
-    builders.back().called_by = "scheme " + scene.scheme.name;
+    builders.back().called_by = called_by(scene);
     join_scheme(materials_.back(), builders.back());
     join_effects(*body, builders.back());
   }
