@@ -1,6 +1,6 @@
 #!/bin/sh
-# Measures which lines, functions and branches of lib/ the tests reach, writes build/coverage/report, and fails below the
-# thresholds of measure.py.
+# Runs the tests under the address and undefined-behaviour sanitizers, measures which lines, functions and branches of lib/
+# they reach, writes build/coverage/report, and fails below the thresholds of measure.py.
 set -eu
 cd "$(dirname "$0")/.."
 
