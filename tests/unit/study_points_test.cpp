@@ -88,6 +88,21 @@ TEST_CASE("all stands for what the table of schemes has", "[study]") {
   CHECK(study::points_of(bar({{{"scheme.degree", {"all"}}}}, {{"scheme.name", "none"}})).empty());
 }
 
+TEST_CASE("first-order and higher-order part the table of schemes by their order in time", "[study]") {
+  const auto schemes = [](const std::string& word) {
+    std::vector<std::string> names;
+    for (const Point& point : study::checked_points(bar({{{"scheme.name", {word}}}})))
+      names.push_back(point.settings.front().value);
+    return names;
+  };
+  std::vector<std::string> first, higher;
+  for (const hompm::Scheme& scheme : hompm::scheme_table())
+    (hompm::splitting(scheme.choices.time_integrator).kicks.size() == 1 ? first : higher)
+        .push_back(scheme.name);
+  CHECK(schemes("first-order") == first);
+  CHECK(schemes("higher-order") == higher);
+}
+
 TEST_CASE("the usual sweeps hold every scheme and can be read", "[study]") {
   const Study study = bar(study::usual_sweeps());
   std::set<std::string> schemes;

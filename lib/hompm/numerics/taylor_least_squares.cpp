@@ -8,15 +8,19 @@ TaylorLeastSquares::TaylorLeastSquares(std::size_t sites, const SplineSpace& gri
 std::size_t TaylorLeastSquares::factorise(std::span<const double> sites) {
   for (std::size_t i = 1; i < sites.size(); ++i)
     if (!(sites[i] > sites[i - 1])) return i;
+  // The first site alone in its cell, or the last, goes with the others next to it.
+  const auto cell_of = [&](std::size_t i) { return grid_.locate(sites[i]).cell; };
+  const auto goes_on = [&](std::size_t i) {
+    return i == 1 || i + 1 == sites.size() || cell_of(i) == cell_of(i - 1);
+  };
   count_ = 0;
   for (std::size_t i = 0; i < sites.size(); ++count_) {
-    const int cell = grid_.locate(sites[i]).cell;
-    const double start = grid_.breakpoint(cell);
+    const double start = grid_.breakpoint(cell_of(i));
     const std::size_t begin = i;
     do {
       place_[i] = (sites[i] - start) * inverse_width_;
       ++i;
-    } while (i < sites.size() && grid_.locate(sites[i]).cell == cell);
+    } while (i < sites.size() && goes_on(i));
     pieces_[count_] = {
         i, start,
         orthogonal_quadratics(

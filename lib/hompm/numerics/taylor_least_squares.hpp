@@ -14,7 +14,9 @@ namespace hompm::numerics {
 /// In each cell of a grid the parabola nearest to the data of the sites there (E. Wobbes, M. Möller, V.
 /// Galavi, C. Vuik, Int. J. Numer. Methods Engrg. 117 (2019) 271–290), with a jump at the breakpoints. Two
 /// sites in a cell give a line, one a constant; a cell without sites takes the parabola of the one before it,
-/// or of the first that has one. Same use as `CubicSplineSites`, but for slopes.
+/// or of the first that has one. An outer cell with one site has a parabola in common with the next that has
+/// sites: a free end passes there, where a constant is of first order. Same use as `CubicSplineSites`, but
+/// for slopes.
 class TaylorLeastSquares {
  public:
   /// `sites` is their number, at least 1.

@@ -89,8 +89,10 @@ const std::vector<Scheme>& scheme_table() {
        .default_degree = 2,
        .choices = {.quadrature = Quadrature::taylor_least_squares,
                    .velocity_projection = VelocityProjection::consistent,
+                   .stress_update = StressUpdate::from_positions,
                    .free_end = FreeEnd::cut_span,
-                   .conserve = Conserve::cell_mass}},
+                   .conserve = Conserve::cell_mass},
+       .relaxes = true},
       {.name = "mixed",
        .summary = "hat functions, mean stress of cells inside the body, particle quadrature at its ends",
        .source = "Beuth, PhD thesis, University of Stuttgart (2012); Al-Kafaji, PhD thesis, University of "

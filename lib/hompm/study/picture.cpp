@@ -12,19 +12,28 @@ namespace hompm::study {
 namespace {
 
 /// Okabe and Ito's colours, which everybody can tell apart, and shapes that differ, too; in the order in
-/// which schemes appear.
+/// which schemes appear. A colour that comes again is dashed.
 struct Style {
   const char* colour;
   const char* shape;
+  const char* dash;
 };
-constexpr std::array<Style, 8> styles{{{"#D55E00", "7"},
-                                       {"#0072B2", "5"},
-                                       {"#009E73", "9"},
-                                       {"#CC79A7", "13"},
-                                       {"#E69F00", "11"},
-                                       {"#56B4E9", "15"},
-                                       {"#000000", "6"},
-                                       {"#999999", "4"}}};
+constexpr std::array<Style, 16> styles{{{"#D55E00", "7", "1"},
+                                        {"#0072B2", "5", "1"},
+                                        {"#009E73", "9", "1"},
+                                        {"#CC79A7", "13", "1"},
+                                        {"#E69F00", "11", "1"},
+                                        {"#56B4E9", "15", "1"},
+                                        {"#000000", "6", "1"},
+                                        {"#999999", "4", "1"},
+                                        {"#D55E00", "8", "2"},
+                                        {"#0072B2", "12", "2"},
+                                        {"#009E73", "10", "2"},
+                                        {"#CC79A7", "14", "2"},
+                                        {"#E69F00", "1", "2"},
+                                        {"#56B4E9", "3", "2"},
+                                        {"#000000", "2", "2"},
+                                        {"#999999", "7", "2"}}};
 
 struct Ranges {
   double least_cost = std::numeric_limits<double>::infinity();
@@ -110,7 +119,7 @@ std::string panel(const std::vector<Outcome>& outcomes, Field field, Cost cost, 
       "$best using 1:2 with lines linewidth 9 linecolor \"#DDDDDD\" title \"best of all\""};
   std::size_t number = 0;
   for (const std::string& scheme : schemes_in(outcomes)) {
-    const auto& [colour, shape] = styles[number % styles.size()];
+    const auto& [colour, shape, dash] = styles[number % styles.size()];
     const std::string id = std::to_string(number++);
     const Choice part = of_scheme(all, scheme);
     const auto failed = failures(outcomes, scheme, cost, ranges);
@@ -121,9 +130,8 @@ std::string panel(const std::vector<Outcome>& outcomes, Field field, Cost cost, 
     if (!part.candidates.empty()) {
       curves.push_back(
           joined({"$dots", id, " using 1:2 with points pointtype 7 pointsize 0.25", ink, " notitle"}));
-      curves.push_back(
-          joined({"$front", id, " using 1:2 with linespoints linewidth 2 pointsize 0.7 pointtype ", shape,
-                  ink, " title \"", scheme, "\""}));
+      curves.push_back(joined({"$front", id, " using 1:2 with linespoints linewidth 2 dashtype ", dash,
+                               " pointsize 0.7 pointtype ", shape, ink, " title \"", scheme, "\""}));
     }
     if (!failed.empty())
       curves.push_back(joined(
@@ -145,9 +153,10 @@ std::string picture_script(const std::vector<Outcome>& outcomes, Cost cost, cons
   const Ranges ranges = ranges_of(outcomes, cost);
   std::string panels;
   for (const Field field : all_fields) {
-    panels += field == Field::displacement ? "set key at graph 0.02,0.02 left bottom Left reverse samplen 2 "
-                                             "spacing 0.9\nset ylabel \"relative L2 error\"\n"
-                                           : "unset key\nset ylabel \"\"\n";
+    panels += field == all_fields.front() ? "set ylabel \"relative L2 error\"\n" : "set ylabel \"\"\n";
+    panels += field == all_fields.back()
+                  ? "set key at screen 0.995,0.87 right top Left reverse samplen 3 spacing 0.95\n"
+                  : "unset key\n";
     panels += panel(outcomes, field, cost, ranges);
   }
   std::string text =
@@ -164,7 +173,7 @@ std::string picture_script(const std::vector<Outcome>& outcomes, Cost cost, cons
        {std::pair{"svg size 1380,500 font \"Helvetica,15\" background \"#FFFFFF\"", "svg"},
         std::pair{"pngcairo size 1380,500 font \"Helvetica,11\" background \"#FFFFFF\"", "png"}})
     text += joined({"set terminal ", terminal, "\nset output \"", name, ".", ending,
-                    "\"\nset multiplot layout 1,3 title \"", plain,
+                    "\"\nset multiplot layout 1,3 margins 0.055,0.85,0.13,0.87 spacing 0.04 title \"", plain,
                     "\" font \",17\" noenhanced offset 0,-0.2\n", panels, "unset multiplot\nset output\n"});
   return text;
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -41,10 +42,22 @@ const Scheme* row_of(const std::vector<Setting>& said, const std::vector<Setting
   return nullptr;
 }
 
-std::vector<std::string> all_values(const std::string& key, const Scheme* row) {
+/// `all`, `first-order` or `higher-order`; nothing for another word.
+std::optional<std::vector<std::string>> schemes_meant(const std::string& word) {
+  if (word != "all" && word != "first-order" && word != "higher-order") return std::nullopt;
+  std::vector<std::string> names;
+  for (const Scheme& scheme : scheme_table()) {
+    const bool first = scheme.choices.time_integrator == TimeIntegrator::euler_cromer;
+    if (word == "all" || first == (word == "first-order")) names.push_back(scheme.name);
+  }
+  return names;
+}
+
+/// What a value of an axis stands for; itself, mostly.
+std::vector<std::string> meant(const std::string& key, const std::string& value, const Scheme* row) {
+  if (key == "scheme.name") return schemes_meant(value).value_or(std::vector{value});
+  if (value != "all") return {value};
   std::vector<std::string> values;
-  if (key == "scheme.name")
-    for (const Scheme& scheme : scheme_table()) values.push_back(scheme.name);
   if (row == nullptr) return values;
   if (key == "scheme.degree")
     for (int degree = row->lowest_degree; degree <= row->highest_degree; ++degree)
@@ -68,8 +81,7 @@ void expand(const Study& study, const Sweep& sweep, std::vector<Setting>& said,
   if (said.size() == sweep.size()) return take(said);
   const Axis& axis = sweep[said.size()];
   for (const std::string& value : axis.values)
-    for (const std::string& one : value == "all" ? all_values(axis.key, row_of(said, study.settings))
-                                                 : std::vector<std::string>{value}) {
+    for (const std::string& one : meant(axis.key, value, row_of(said, study.settings))) {
       said.push_back({axis.key, one});
       expand(study, sweep, said, take);
       said.pop_back();

@@ -17,7 +17,8 @@ struct Setting {
 
 /// A key that is varied. The value `all` stands for what the table of schemes has: of `scheme.name` every
 /// row, of `scheme.degree` every degree of the row, of `scheme.time_integrator` the row's own and, where that
-/// is of second order, blanes-moan.
+/// is of second order, blanes-moan. Of `scheme.name`, `first-order` stands for the rows of first order in
+/// time, `higher-order` for the others.
 struct Axis {
   std::string key;
   std::vector<std::string> values;
