@@ -26,6 +26,7 @@
 #include <hompm/output/run_report.hpp>
 #include <hompm/recorder/checkpoint_writer.hpp>
 #include <hompm/recorder/trace.hpp>
+#include <hompm/scene/caution.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/verify/compare.hpp>
@@ -141,6 +142,8 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
     std::cout << hompm::cli::plan_text(scene, stepping);
     return hompm::cli::success;
   }
+  if (const std::string caution = hompm::caution(scene); !quiet && !caution.empty())
+    hompm::cli::warn(caution);
   hompm::RunFolder folder(output_folder(given, scene), begin.vtk, !scene.bodies.empty());
   const auto trace = open_trace(given);
   const auto start = std::chrono::steady_clock::now();

@@ -26,6 +26,7 @@ STYLES = {"classical": ("#D55E00", 7), "bspline": ("#0072B2", 5), "tielen2017": 
 # The rest of the family: thin, and dashed where a colour comes twice.
 OTHERS = {"ugimp": ("#E69F00", 1), "cpgimp": ("#56B4E9", 1), "cpdi": ("#56B4E9", 2), "ddmp": ("#999999", 1), "apic": ("#000000", 1),
           "total-lagrangian": ("#000000", 2), "mixed": ("#E69F00", 2), "mls": ("#999999", 2), "tls": ("#009E73", 2)}
+NEW = ("#F0E442", 3)  # a scheme without a style of its own
 
 START = """
 set encoding utf8
@@ -152,7 +153,7 @@ def long_run(tools):
         plots = []
         for row in make_tables.scheme_rows():
             scheme = row["name"]
-            colour, dash = (STYLES[scheme][0], 1) if scheme in STYLES else OTHERS[scheme]
+            colour, dash = (STYLES[scheme][0], 1) if scheme in STYLES else OTHERS.get(scheme, NEW)
             name = f"{law}_{scheme}".replace("-", "_")
             script += block(name, [[f"{time:.0f}", f"{energy:.4f}"] for time, energy in make_tables.long_bar(tools, scheme, law)[::4]])
             plots.append(f'${name} using 1:2 with lines linewidth {2 if scheme in STYLES else 1} dashtype {dash} linecolor "{colour}" title "{scheme}"')

@@ -39,6 +39,26 @@ std::size_t count_lines(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("hompm-run warns of update stress last with hat functions at a free end that moves, and runs") {
+  const TemporaryFolder scratch;
+  const auto said = [&](const std::string& options) {
+    const auto done = run_command(tool + " --case column --end-time 0.01 --no-vtk " + options + " --output " +
+                                  quoted((scratch / "out").string()));
+    CHECK(done.exit_code == 0);
+    return done.err;
+  };
+  CHECK_THAT(said("--scheme apic --degree 1"),
+             contains("hompm-run: warning: scheme.sequence = \"usl\" with hat functions"));
+  CHECK_THAT(said("--scheme classical --set scheme.sequence=usl"), contains("\"musl\" was made for that"));
+  CHECK(said("--scheme apic --degree 1 --quiet").empty());
+  CHECK(said("--scheme apic").empty());
+  CHECK(said("--scheme classical").empty());
+  CHECK(said("--scheme apic --degree 1 --set ends.right=fixed").empty());
+  CHECK(said("--scheme apic --degree 1 --variant small --set material.law=linear "
+             "--set kinematics=infinitesimal")
+            .empty());
+}
+
 TEST_CASE("hompm-run leaves a whole folder, and the same bytes the second time") {
   const TemporaryFolder scratch;
   const auto first =
