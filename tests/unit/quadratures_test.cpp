@@ -101,6 +101,14 @@ TEST_CASE("mixed integration does not feel how many particles of a constant stre
   CHECK(jump("mixed", 7.0, 1.0) < 0.5 * 2.0 / 16.0);
 }
 
+TEST_CASE("moving least squares do not feel that a particle crosses a breakpoint") {
+  CHECK(jump("mls", 7.0, 1.0) < 1e-10);  // 2e-12 m times a stiffness of 16 breakpoints per metre
+  CHECK(jump("classical", 7.0, 1.0) > 1.0);
+  // Parabolas cell by cell do, but for a stress that is one parabola.
+  CHECK(jump("tls", 7.0, 1.0) > 1e-4);
+  CHECK(jump("tls", 7.0, 0.0) <= 7.0 * 32 * epsilon * 16);
+}
+
 TEST_CASE("mixed integration is particle quadrature where a free end cuts a cell") {
   const auto forces = [](const std::string& scheme) {
     Simulation simulation(hompm::test::free_body({{"scheme.name", scheme}, {"scheme.margin_cells", "6"}}),
