@@ -87,6 +87,10 @@ BodyEnd::BodyEnd(const PlanBuilder& builder, Side side)
       project_(builder.project),
       grid_response_(builder.state.fields.mass.size()),
       particle_response_(builder.state.particles.size()) {
+  if (builder.scene.scheme.choices.velocity_projection == VelocityProjection::consistent) {
+    grid_change_.resize(grid_response_.size());
+    particle_change_.resize(particle_response_.size());
+  }
   const Particles& p = builder.state.particles;
   const std::size_t outer = side == Side::right ? p.size() - 1 : 0;
   parts_[0] = {outer, 1.0};
@@ -112,19 +116,24 @@ void BodyEnd::for_functions(const State& state, Visit visit) const {
       visit(static_cast<std::size_t>(state.basis.first[p]) + k, weight * state.basis.values[p * stencil + k]);
 }
 
+void BodyEnd::send_through_particles(const State& state, std::vector<double>& grid,
+                                     std::vector<double>& particles) const {
+  const std::size_t stencil = state.basis.stencil;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double* n = &state.basis.values[p * stencil];
+    const double* change = &grid[static_cast<std::size_t>(state.basis.first[p])];
+    double sum = 0.0;
+    for (std::size_t k = 0; k < stencil; ++k) sum += n[k] * change[k];
+    particles[p] = sum;
+  }
+  project_(state, particles, grid);
+}
+
 void BodyEnd::find(const State& state) {
   std::fill(grid_response_.begin(), grid_response_.end(), 0.0);
   for_functions(state, [&](std::size_t i, double value) { grid_response_[i] += value; });
   reaction_ = divide_by_mass_(state, grid_response_);
-  const std::size_t stencil = state.basis.stencil;
-  for (std::size_t p = 0; p < particle_response_.size(); ++p) {
-    const double* n = &state.basis.values[p * stencil];
-    const double* change = &grid_response_[static_cast<std::size_t>(state.basis.first[p])];
-    double sum = 0.0;
-    for (std::size_t k = 0; k < stencil; ++k) sum += n[k] * change[k];
-    particle_response_[p] = sum;
-  }
-  project_(state, particle_response_, grid_response_);
+  send_through_particles(state, grid_response_, particle_response_);
 
   const GridFields& g = state.fields;
   compliance_ = velocity_ = 0.0;
@@ -132,8 +141,14 @@ void BodyEnd::find(const State& state) {
     compliance_ += value * grid_response_[i];
     velocity_ += value * g.velocity[i];
   });
-  double acceleration = 0.0;  // by the symmetry of the response
-  for (std::size_t i = 0; i < grid_response_.size(); ++i) acceleration += grid_response_[i] * g.force[i];
+  double acceleration = 0.0;
+  if (grid_change_.empty()) {  // by the symmetry of the response
+    for (std::size_t i = 0; i < grid_response_.size(); ++i) acceleration += grid_response_[i] * g.force[i];
+  } else {
+    grid_change_ = g.acceleration;
+    send_through_particles(state, grid_change_, particle_change_);
+    for_functions(state, [&](std::size_t i, double value) { acceleration += value * grid_change_[i]; });
+  }
   velocity_before_ = velocity_ - state.kick * acceleration;
 }
 

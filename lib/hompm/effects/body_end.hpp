@@ -82,12 +82,18 @@ class BodyEnd {
   template <class Visit>
   void for_functions(const State& state, Visit visit) const;
 
+  /// The way of all changes of velocity: `grid` to the particles, whose projection replaces it.
+  void send_through_particles(const State& state, std::vector<double>& grid,
+                              std::vector<double>& particles) const;
+
   decltype(PlanBuilder::divide_by_mass) divide_by_mass_;
   decltype(PlanBuilder::project) project_;
   std::array<Part, 2> parts_{};            ///< ℓ
   std::vector<double> grid_response_;      ///< of the grid velocity to a unit impulse
   std::vector<double> particle_response_;  ///< of the particle velocities
-  double reaction_ = 0.0;                  ///< at fixed ends, of a unit impulse
+  /// By the forces; where the projection reconstructs fields, and the response to impulses is not symmetric.
+  std::vector<double> grid_change_, particle_change_;
+  double reaction_ = 0.0;  ///< at fixed ends, of a unit impulse
   double compliance_ = 0.0;
   double velocity_ = 0.0;
   double velocity_before_ = 0.0;
