@@ -145,7 +145,7 @@ double critical_time_step(const Scene& scene) {
     if (detail::stays_bounded(few_cells, 0.98 * part * limit, static_cast<int>(most_steps / part)))
       return part * limit;
   refuse(scene,
-         "no step is stable with an end held so: motions grow there that the particles do not resolve; raise "
+         "no step is stable with the ends held so: motions grow there that the particles do not resolve; raise "
          "scheme.particles_per_cell, or lower scheme.degree");
 }
 
