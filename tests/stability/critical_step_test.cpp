@@ -344,3 +344,13 @@ TEST_CASE("an absorbing end brakes the mean of the velocities before and after t
   CHECK(critical == hompm::critical_time_step(free));
   CHECK(velocity_of_noise(scene, 0.98 * critical, 10000) < 20.0);
 }
+
+TEST_CASE("a wall beyond a long body leaves the critical step of its free ends") {
+  const std::string scheme = GENERATE(as<std::string>{}, "bspline", "tielen2017", "high-order");
+  Scene scene = bar(scheme, 2, 4, "free", "rate");
+  scene.body.length = scene.scheme.cells = 40;
+  const double critical = hompm::critical_time_step(scene);
+  scene.effects = {
+      {.type = "wall", .parameters = {{"end", std::string("right")}, {"position", 41.0}}, .origin = {}}};
+  CHECK(hompm::critical_time_step(scene) == critical);
+}

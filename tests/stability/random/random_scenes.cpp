@@ -97,17 +97,27 @@ std::string draw(std::uint64_t seed, double strain, double step_fraction) {
                  strain * modulus / (density * length) * random.between(-1.0, 1.0) * (held ? 1.0 : 0.3));
     if (random.chance(0.5)) text += line("ramp_time", crossing * random.between(0.1, 1.0));
   }
-  if (free_right && random.chance(0.5))
+  const char* integrator = random.one_of({"", "", "euler-cromer", "leapfrog", "blanes-moan"});
+  const bool backwards = std::strcmp(integrator, "blanes-moan") == 0;
+  const char* held_by = random.one_of({"", "", "", "piston", "wall", "absorbing"});
+  if (free_right && !backwards && scheme.choices.sequence == hompm::Sequence::musl && *held_by != '\0') {
+    text += "\n[[effect]]\ntype = \"" + std::string(held_by) + "\"\nend = \"right\"\n";
+    if (std::strcmp(held_by, "piston") == 0)
+      text += line("velocity", c * strain * random.between(-1.0, 1.0)) +
+              line("ramp_time", crossing * random.between(0.1, 1.0));
+    if (std::strcmp(held_by, "wall") == 0)
+      text += line("position", length * (1.0 + strain * random.between(0.0, 1.0)));
+  } else if (free_right && random.chance(0.5)) {
     text +=
         "\n[[effect]]\ntype = \"traction\"\n" + line("value", strain * modulus * random.between(-1.0, 1.0));
+  }
   if (random.chance(0.3))
     text += "\n[[effect]]\ntype = \"mass-damping\"\n" + line("rate", random.between(0.0, 3.0) / crossing);
   const bool lumped = scheme.choices.acceleration_mass == hompm::MassForm::lumped;
   const bool damped = lumped && random.chance(0.2);
   if (damped)
     text += "\n[[effect]]\ntype = \"local-damping\"\n" + line("coefficient", random.between(0.0, 0.8));
-  const char* integrator = random.one_of({"", "", "euler-cromer", "leapfrog", "blanes-moan"});
-  if (std::strcmp(integrator, "blanes-moan") != 0) {
+  if (!backwards) {
     if (random.chance(0.2))
       text += "\n[[effect]]\ntype = \"viscosity\"\n" +
               line("viscosity", modulus * crossing * random.between(0.0, 0.05));
@@ -125,9 +135,9 @@ std::string draw(std::uint64_t seed, double strain, double step_fraction) {
 /// How far the energy balance may be open, as a part of the energy at work. Half a wave over three cells at
 /// 0.9 of the critical step is what a scene may be: then ω Δt is near 1, and kinetic and stored energy are
 /// known half a step apart with Euler–Cromer, by up to 0.88. Others are open by what the grid does not see of
-/// such a wave, up to 0.42. Both fall with the step (docs/stability.md).
+/// such a wave, up to 0.53. Both fall with the step (docs/stability.md).
 double energy_bound(const hompm::Scene& scene) {
-  return scene.scheme.choices.time_integrator == hompm::TimeIntegrator::euler_cromer ? 0.9 : 0.5;
+  return scene.scheme.choices.time_integrator == hompm::TimeIntegrator::euler_cromer ? 0.9 : 0.6;
 }
 
 /// What is wrong with the scene; "" when nothing is, "refused" when there is no such run.
