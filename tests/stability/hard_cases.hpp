@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,12 +39,17 @@ inline void shown(const std::string& hard_case, const std::string& series, doubl
                                      << to_text(value) << '\n';
 }
 
+/// The larger of the two, and infinity where `value` is not a number: a bound must not overlook it.
+inline double larger(double most, double value) {
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(most, value);
+}
+
 /// The largest |value(particles, i)|.
 template <class Value>
 double largest(const Simulation& simulation, Value value) {
   const Particles& p = simulation.state().particles;
   double most = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, std::abs(value(p, i)));
+  for (std::size_t i = 0; i < p.size(); ++i) most = larger(most, std::abs(value(p, i)));
   return most;
 }
 

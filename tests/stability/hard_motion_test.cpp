@@ -20,6 +20,7 @@ using hompm::Phase;
 using hompm::Scene;
 using hompm::Simulation;
 using hompm::test::hard;
+using hompm::test::larger;
 using hompm::test::largest;
 using hompm::test::reconstructs;
 using hompm::test::shown;
@@ -76,9 +77,6 @@ TEST_CASE("a free end that passes a breakpoint makes no jump in the acceleration
     for (const Phase phase : {Phase::geometry, Phase::end_stress, Phase::internal_force,
                               Phase::external_force, Phase::damping_force, Phase::acceleration})
       simulation.plan().run(phase, state);
-    for (std::size_t phase = static_cast<std::size_t>(Phase::acceleration) + 1;
-         phase < static_cast<std::size_t>(Phase::velocity); ++phase)
-      simulation.plan().run(static_cast<Phase>(phase), state);
     return p.velocity;
   };
   for (const double cut : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
@@ -86,9 +84,10 @@ TEST_CASE("a free end that passes a breakpoint makes no jump in the acceleration
     double scale = 0.0, jump = 0.0;
     for (std::size_t i = 0; i < before.size(); ++i) {
       CHECK(std::isfinite(after[i]));
-      scale = std::max(scale, std::abs(before[i]));
-      jump = std::max(jump, std::abs(after[i] - before[i]));
+      scale = larger(scale, std::abs(before[i]));
+      jump = larger(jump, std::abs(after[i] - before[i]));
     }
+    CHECK(scale > 0.0);
     INFO(scheme << ", " << cut << " cells: " << jump / scale);
     shown("free-end-knots", scheme, cut, jump / scale);
     // Proportional to the way. The extension ties another function on each side of the breakpoint: a change

@@ -65,7 +65,7 @@ Outcome impact(const std::string& scheme, int cells, double velocity, const std:
     outcome.overall +=
         std::abs(ratio - (X < exact.speed * after.time ? 1.0 : 0.0)) / static_cast<double>(after.size());
     if (X < 0.1 || X > 0.6) continue;  // what the start left at the wall; the shock itself
-    outcome.ripple = std::max(outcome.ripple, std::abs(ratio - 1.0));
+    outcome.ripple = hompm::test::larger(outcome.ripple, std::abs(ratio - 1.0));
     sum += ratio;
     ++count;
   }
