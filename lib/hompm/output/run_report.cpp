@@ -139,7 +139,7 @@ std::string run_summary(const RunReport& report) {
           brief(stepping.critical_time_step) + " s";
   if (const double met = result.largest_step_fraction;
       met > 1.0 && stepping.time_step <= stepping.critical_time_step)
-    text += ", and the step was " + brief(met) + " of it for a while";  // LCOV_EXCL_LINE: of faster waves
+    text += ", and the step was " + brief(met) + " of it for a while";
   text += "\n";
   if (scene.rest)
     text += result.at_rest ? "  rest      reached\n" : "  rest      not reached by the end time\n";
