@@ -272,5 +272,6 @@ TEST_CASE("a scene of several bodies cannot be studied, and every point says so"
                                 "--repeats 0 --no-instructions --output " +
                                 quoted(folder / "out"));
   CHECK_THAT(done.out, contains("2 of 2 points: refused"));
-  CHECK_THAT(read_file(folder / "out/points/cells=8.json"), contains("a study measures scenes of one body"));
+  CHECK_THAT(read_file(folder / "out/points/cells=8.json"),
+             contains("a study needs an exact solution, and of several bodies none is known"));
 }

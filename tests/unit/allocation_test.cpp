@@ -1,10 +1,11 @@
 // The step loop takes no memory: operator new is counted. Left out under sanitizers, which bring their own.
 #include <atomic>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 
 #include <hompm/scheme/scheme.hpp>
-#include <hompm/simulation/simulation.hpp>
+#include <hompm/simulation/run.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
@@ -38,4 +39,16 @@ scheme = { name = ")" + scheme.name + R"(", cells = 16, particles_per_cell = 4, 
   for (int step = 0; step < 500; ++step) simulation.step();
   CHECK(allocations == before);
   CHECK(before > 0);
+}
+
+TEST_CASE("no effect of an example scene allocates in a step, in contact or not") {
+  for (const auto& entry : std::filesystem::directory_iterator(HOMPM_SOURCE_DIR "/docs/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    const auto scene = hompm::load_scene(entry.path().string(), {{"scheme.cells", "16", "--cells"}});
+    hompm::Simulation simulation(scene, hompm::time_stepping(scene).time_step);
+    const long before = allocations;
+    for (int step = 0; step < 200; ++step) simulation.step();
+    CHECK(allocations == before);
+  }
 }

@@ -83,6 +83,20 @@ TEST_CASE("sin, cos, exp, sin_pi and cos_pi are correctly rounded", "[elementary
   }
 }
 
+TEST_CASE("sin_pi is the correctly rounded sine of any turn, however small", "[elementary]") {
+  Uniform uniform;
+  int wrong = 0;
+  for (int i = 0; i < 5000; ++i) {
+    double x = 2.0 * (uniform() - 0.5);
+    if (i % 3 == 1) x *= std::ldexp(1.0, -uniform.below(1020));
+    if (i % 3 == 2) x += uniform.below(1000000);
+    const Precise exact =
+        boost::multiprecision::sin(boost::math::constants::pi<Precise>() * std::fmod(x, 2.0));
+    if (numerics::sin_pi(x) != rounded(exact)) ++wrong;
+  }
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("sin_pi and cos_pi are exact where their values are", "[elementary]") {
   for (const double n : {0.0, 1.0, 2.0, 3.0, 1e6, 0x1p52, 0x1p52 + 1.0, 0x1p53 - 1.0, 0x1p60}) {
     const double parity = std::fmod(n, 2.0) == 0.0 ? 1.0 : -1.0;

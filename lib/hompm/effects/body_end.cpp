@@ -129,6 +129,12 @@ void BodyEnd::send_through_particles(const State& state, std::vector<double>& gr
   project_(state, particles, grid);
 }
 
+double BodyEnd::velocity_now(const State& state) const {
+  double velocity = 0.0;
+  for_functions(state, [&](std::size_t i, double value) { velocity += value * state.fields.velocity[i]; });
+  return velocity;
+}
+
 void BodyEnd::find(const State& state) {
   std::fill(grid_response_.begin(), grid_response_.end(), 0.0);
   for_functions(state, [&](std::size_t i, double value) { grid_response_[i] += value; });
@@ -136,11 +142,9 @@ void BodyEnd::find(const State& state) {
   send_through_particles(state, grid_response_, particle_response_);
 
   const GridFields& g = state.fields;
-  compliance_ = velocity_ = 0.0;
-  for_functions(state, [&](std::size_t i, double value) {
-    compliance_ += value * grid_response_[i];
-    velocity_ += value * g.velocity[i];
-  });
+  compliance_ = 0.0;
+  for_functions(state, [&](std::size_t i, double value) { compliance_ += value * grid_response_[i]; });
+  velocity_ = velocity_now(state);
   double acceleration = 0.0;
   if (grid_change_.empty()) {  // by the symmetry of the response
     for (std::size_t i = 0; i < grid_response_.size(); ++i) acceleration += grid_response_[i] * g.force[i];

@@ -57,6 +57,9 @@ class BodyEnd {
 
   static constexpr const char* arrays = "per particle and per function: response to an impulse on the end";
 
+  /// At which it moves after the kick (m/s), as `find` has it: where that is all that is asked.
+  [[nodiscard]] double velocity_now(const State& state) const;
+
   /// Finds w and the velocities of the end; in Phase::constraint, before the others.
   void find(const State& state);
 
@@ -109,10 +112,12 @@ class EndPair {
     return b_.position(right) - a_.position(left);
   }
 
-  /// As of `BodyEnd`, for both.
-  void find(const State& left, const State& right);
   /// At which the gap closes, m/s.
-  [[nodiscard]] double closing_velocity() const { return a_.velocity() - b_.velocity(); }
+  [[nodiscard]] double closing_velocity(const State& left, const State& right) const {
+    return a_.velocity_now(left) - b_.velocity_now(right);
+  }
+  /// As of `BodyEnd`, for both; before `slow_down`.
+  void find(const State& left, const State& right);
 
   /// Takes `change` (m/s) off the closing velocity by an impulse on both, and returns its work (J/m²).
   double slow_down(State& left, State& right, double change) const;

@@ -1,4 +1,3 @@
-#include <limits>
 #include <memory>
 
 #include <hompm/effects/body_end.hpp>
@@ -27,10 +26,10 @@ void join(const EffectSpec& spec, const PairBuilder& pair) {
              });
   pair.add(Phase::constraint, "contact", [ends](State& left, State& right) {
     const double most = approach_limit(left, ends->gap(left, right));
-    if (most == std::numeric_limits<double>::infinity()) return;
+    const double excess = ends->closing_velocity(left, right) - most;
+    if (!(excess > 0.0)) return;
     ends->find(left, right);
-    const double excess = ends->closing_velocity() - most;
-    if (excess > 0.0) left.balance.dissipated -= ends->slow_down(left, right, excess);
+    left.balance.dissipated -= ends->slow_down(left, right, excess);
   });
 }
 

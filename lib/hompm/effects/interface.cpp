@@ -25,7 +25,7 @@ void join(const EffectSpec& spec, const PairBuilder& pair) {
   pair.add(Phase::constraint, "interface", [ends](State& left, State& right) {
     ends->find(left, right);
     const double apart = left.drift > 0.0 ? ends->gap(left, right) / left.drift : 0.0;
-    left.balance.external_work += ends->slow_down(left, right, ends->closing_velocity() - apart);
+    left.balance.external_work += ends->slow_down(left, right, ends->closing_velocity(left, right) - apart);
   });
 }
 

@@ -1,4 +1,3 @@
-#include <limits>
 #include <memory>
 
 #include <hompm/effects/body_end.hpp>
@@ -36,11 +35,9 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   builder.add(
       Phase::constraint, "wall",
       [=](State& state) {
-        const double most = approach_limit(state, gap(state));
-        if (most == std::numeric_limits<double>::infinity()) return;
-        end->find(state);
-        const double excess = n * end->velocity() - most;
+        const double excess = n * end->velocity_now(state) - approach_limit(state, gap(state));
         if (!(excess > 0.0)) return;
+        end->find(state);
         const double impulse = -n * excess / end->compliance();
         end->push(state, impulse);
         state.balance.dissipated -= end->work(impulse);

@@ -136,6 +136,34 @@ DoubleDouble log_one_plus(DoubleDouble r) {
   return twice + twice * (w * series);
 }
 
+constexpr DoubleDouble pi_in_two{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
+
+/// ±1/(2k + 1)!, of the series of the sine; what is left out is below 2^-119 of it up to π/2.
+constexpr auto sine_coefficients = [] {
+  std::array<DoubleDouble, 18> coefficients{};
+  coefficients[0] = {1.0};
+  for (std::size_t k = 1; k < coefficients.size(); ++k) {
+    const auto divisor = static_cast<double>(2 * k * (2 * k + 1));
+    coefficients[k] = coefficients[k - 1] / DoubleDouble{-divisor};
+  }
+  return coefficients;
+}();
+
+/// sin(πr) for |r| ≤ 1/2, rounded once. In double-double, with an error far below 2^-90; where that could
+/// round either way (Ziv 1991), or parts of products underflow, with 113 bits.
+double sin_of_half_turn(double r) {
+  if (r > 0x1p-900 || r < -0x1p-900) {
+    const DoubleDouble angle = pi_in_two * DoubleDouble{r};
+    const DoubleDouble square = angle * angle;
+    DoubleDouble sum = sine_coefficients.back();
+    for (std::size_t k = sine_coefficients.size() - 1; k-- > 0;) sum = sum * square + sine_coefficients[k];
+    const DoubleDouble sine = angle * sum;
+    const double error = 0x1p-90 * sine.high;
+    if (sine.high + (sine.low + error) == sine.high + (sine.low - error)) return sine.high + sine.low;
+  }
+  return rounded(boost::multiprecision::sin(times_pi(r)));
+}
+
 }  // namespace
 
 double sin(double x) { return rounded(boost::multiprecision::sin(Quad(x))); }
@@ -146,7 +174,7 @@ double exp(double x) { return rounded(boost::multiprecision::exp(Quad(x))); }
 
 double sin_pi(double x) {
   const Turns turns = half_turns(x);
-  const double value = rounded(boost::multiprecision::sin(times_pi(turns.remainder)));
+  const double value = sin_of_half_turn(turns.remainder);
   return turns.odd ? 0.0 - value : value;  // never −0
 }
 
@@ -154,9 +182,8 @@ double cos_pi(double x) {
   const Turns turns = half_turns(x);
   // Near a quarter turn through the sine, whose argument is then small and exact: cos_pi(1/2) is exactly 0.
   const double distance = turns.remainder < 0.0 ? -turns.remainder : turns.remainder;
-  const Quad cosine = distance > 0.25 ? Quad(boost::multiprecision::sin(times_pi(0.5 - distance)))
-                                      : Quad(boost::multiprecision::cos(times_pi(distance)));
-  const double value = rounded(cosine);
+  const double value = distance > 0.25 ? sin_of_half_turn(0.5 - distance)
+                                       : rounded(boost::multiprecision::cos(times_pi(distance)));
   return turns.odd ? 0.0 - value : value;  // never −0
 }
 

@@ -12,8 +12,10 @@ inline constexpr double pi = 3.141592653589793;
 double sin(double x);
 double cos(double x);
 double exp(double x);
-/// sin(π x): the argument is multiplied by π in 113 bits, so sin_pi(1) is exactly 0.
+/// sin(π x): the argument is multiplied by π in 106 bits or more, so sin_pi(1) is exactly 0. Fast enough for
+/// the step loop.
 double sin_pi(double x);
+/// cos(π x), as slow as `cos`.
 double cos_pi(double x);
 
 /// Natural logarithm for x > 0, finite; evaluated in double-double arithmetic and rounded once. Fast enough

@@ -83,7 +83,8 @@ Measured measure(const Study& study, const Point& point, const std::string& prog
     const Scene scene = measured_scene(study, point);
     record.scene = scene_text(scene);
     if (!scene.bodies.empty())
-      throw SceneError(Origin{scene.case_name}, "a study measures scenes of one body");
+      throw SceneError(Origin{scene.case_name},
+                       "a study needs an exact solution, and of several bodies none is known");
     record.scheme = scene.scheme.name;
     record.degree = scene.scheme.degree;
     record.cells = scene.scheme.cells;
