@@ -5,8 +5,9 @@ in docs/pictures, and the generated parts of the page.
     docs/make_study.py [--tool build/release/bin] [--work build/study] [--repeats 5] [--check]
 
 A run that was interrupted goes on in the folder --work. With --check nothing is written: the exit code is 1 when the page does
-not say what the CSV files say, or when they are not current. That is seen from a few cheap points, `SUBSET`, run anew: their
-errors must be the same to the digit, their instructions the same to 0.5 %. Another compiler makes other instructions; they are
+not say what the CSV files say, or when they are not current. That is seen from their points, which must be those of the
+studies with the present table of schemes, and from a few cheap ones, run anew: their errors must be the same to the digit, their
+instructions the same to 0.5 %. Another compiler makes other instructions; they are
 then passed over, with a note.
 """
 import argparse
@@ -30,13 +31,10 @@ NAMES = ["bar-large", "bar-small", "column-large", "column-small"]
 FIELDS = ["displacement", "velocity", "stress"]
 KEPT = ["point", "status", "scheme", "degree", "cells", "particles_per_cell", "particles", "steps",
         *(f"{field}_relative_l2" for field in FIELDS), "instructions", "instructions_per_particle_and_step"]
-# One point per scheme of each study: what `--check` runs anew. With those of the others 22 of 486 points, a few seconds.
-SUBSET = {name: ["scheme=classical,cells=16,particles_per_cell=2,courant=0.1", "scheme=bspline,cells=16,particles_per_cell=2,courant=0.1",
-                 "scheme=tielen2017,cells=16,particles_per_cell=2,courant=0.1",
-                 "scheme=high-order,degree=3,time_integrator=leapfrog,cells=16,particles_per_cell=2,courant=0.1"] for name in NAMES}
-SUBSET["scaling"] = [f"scheme={scheme},cells=25" for scheme in ("classical", "bspline", "tielen2017", "high-order")]
-SUBSET["ladder"] = ["scheme=tielen2017,time_integrator=leapfrog", "scheme=tielen2017,time_integrator=leapfrog,stress_update=from-positions"]
+ALL = [*NAMES, "scaling", "ladder"]
+AMONG = ["classical", "bspline", "tielen2017", "high-order"]
 TOLERANCE = 0.005
+ERRORS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 
 
 def run(tool, *options):
@@ -55,26 +53,55 @@ def compiler(tool):
 
 
 def make_study(tool, name, work, repeats):
-    """Runs a study; its points with the times of the last run, as the rows to keep."""
+    """Runs a study; its points as the rows to keep, with the times of those that the page names."""
     folder = work / name
-    run(tool, "--study", STUDIES / f"{name}.toml", "--output", folder, "--repeats", 0 if name == "scaling" else repeats, "--quiet")
-    times = {}
-    if (folder / "times.csv").exists():
-        with open(folder / "times.csv", newline="", encoding="utf-8") as file:
-            times = {row["point"]: row["least"] for row in csv.DictReader(file)}
-    with open(folder / "points.csv", newline="", encoding="utf-8") as file, \
-         open(STUDIES / f"{name}.csv", "w", newline="", encoding="utf-8") as kept:
+    run(tool, "--study", STUDIES / f"{name}.toml", "--output", folder, "--repeats", 0, "--quiet")
+    with open(folder / "points.csv", newline="", encoding="utf-8") as file:
+        points = list(csv.DictReader(file))
+    times = times_of(tool, name, named_points(points), work, repeats) if name in NAMES and repeats else {}
+    with open(STUDIES / f"{name}.csv", "w", newline="", encoding="utf-8") as kept:
         writer = csv.writer(kept, lineterminator="\n")
         writer.writerow([*KEPT, "seconds"])
-        for row in csv.DictReader(file):
+        for row in points:
             writer.writerow([*(row[column] for column in KEPT), times.get(row["point"], "")])
     if name in NAMES:
         shutil.copy(folder / "error-instructions.svg", ROOT / f"docs/pictures/accuracy-cost-{name}.svg")
 
 
+def named_points(rows):
+    """The cheapest for each error."""
+    best = [cheapest(rows, field, error) for field in ("displacement", "stress") for error in ERRORS]
+    return sorted({row["point"] for row in best if row})
+
+
+def times_of(tool, name, points, work, repeats):
+    """{point: least seconds}, of a study of these points alone."""
+    study = (STUDIES / f"{name}.toml").read_text().split("[[sweep]]")[0]
+    for point in points:
+        pairs = [setting.split("=") for setting in point.split(",")]
+        study += "[[sweep]]\n" + "".join(f'{key} = {value if value[0].isdigit() else json.dumps(value)}\n' for key, value in pairs)
+    file = work / f"{name}-times.toml"
+    file.write_text(study)
+    folder = work / f"{name}-times"
+    run(tool, "--study", file, "--output", folder, "--repeats", repeats, "--no-instructions", "--quiet")
+    with open(folder / "times.csv", newline="", encoding="utf-8") as table_of_times:
+        return {row["point"]: row["least"] for row in csv.DictReader(table_of_times)}
+
+
 def rows_of(name):
     with open(STUDIES / f"{name}.csv", newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def gate():
+    """[(study, point)]: what `--check` runs anew, a few seconds of it: each scheme on the large bar, four of them elsewhere."""
+    chosen = []
+    for name in NAMES:
+        rows = [row for row in rows_of(name) if row["cells"] == "16" and "courant=0.1" in row["point"].split(",")]
+        for scheme in dict.fromkeys(row["scheme"] for row in rows) if name == "bar-large" else AMONG:
+            chosen.append((name, next(row["point"] for row in rows if row["scheme"] == scheme)))
+    chosen += [("scaling", f"scheme={scheme},cells=25") for scheme in AMONG]
+    return chosen + [("ladder", row["point"]) for row in rows_of("ladder")[1:3]]
 
 
 def cheapest(rows, field, error):
@@ -109,7 +136,7 @@ def time_to_accuracy(name):
     lines = []
     for field in ("displacement", "stress"):
         table_rows = []
-        for error in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9):
+        for error in ERRORS:
             best = cheapest(rows, field, error)
             if best is None:
                 break
@@ -170,7 +197,13 @@ def goals():
             f"its error is {short(float(fine['displacement_relative_l2']))}."]
 
 
-PARTS = {**{name: lambda name=name: time_to_accuracy(name) for name in NAMES}, "ladder": ladder, "steps": step_cost, "scaling": scaling, "goals": goals}
+def what_is_tested():
+    points = sum(len(rows_of(name)) for name in ALL)
+    return [f"These numbers are a gate: the tests run {len(gate())} of the {points} points of this page anew, and fail when one takes 0.5 % more or fewer",
+            "instructions, has another error, or when a study has other points: a new row of the table of schemes is one of its schemes."]
+
+
+PARTS = {**{name: lambda name=name: time_to_accuracy(name) for name in NAMES}, "ladder": ladder, "steps": step_cost, "scaling": scaling, "goals": goals, "gate": what_is_tested}
 PART = re.compile(r"<!-- generated by docs/make_study\.py: (\S+) -->\n(.*?)<!-- end of \1 -->", re.DOTALL)
 
 
@@ -181,6 +214,15 @@ def renewed(text):
         return f"<!-- generated by docs/make_study.py: {name} -->\n{lines}\n<!-- end of {name} -->"
 
     return PART.sub(renew, text)
+
+
+def missing_points(tool):
+    """Complaints about studies whose points are others now: a new row of the table of schemes makes some."""
+    for name in ALL:
+        listed = run(tool, "--study", STUDIES / f"{name}.toml", "--list").split()
+        known = [row["point"] for row in rows_of(name)]
+        for point in sorted(set(listed) ^ set(known))[:3]:
+            yield f"docs/studies/{name}.csv {'lacks' if point in listed else 'still has'} {point}"
 
 
 def stale_points(tool, same_compiler):
@@ -205,7 +247,7 @@ def stale_points(tool, same_compiler):
         return complaints
 
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        tasks = [(name, point, f"{folder}/{name}") for name, points in SUBSET.items() for point in points]
+        tasks = [(name, point, f"{folder}/{name}") for name, point in gate()]
         return [complaint for complaints in pool.map(look, tasks) for complaint in complaints]
 
 
@@ -215,6 +257,7 @@ def check(tool):
     if renewed(text) != text:
         complaints.append("docs/accuracy-cost.md does not say what docs/studies/*.csv say")
     complaints += [f"make_study: the part {name} stands in no file" for name in PARTS if f"make_study.py: {name} " not in text]
+    complaints += missing_points(tool)
     known = (STUDIES / "compiler.txt").read_text().strip()
     here = compiler(tool)
     if known != here:
@@ -238,7 +281,7 @@ def main():
         if complaints:
             print("docs/make_study.py writes docs/accuracy-cost.md anew, in about ten minutes", file=sys.stderr)
         return 1 if complaints else 0
-    for name in SUBSET:
+    for name in ALL:
         make_study(tool, name, arguments.work, arguments.repeats)
         print(f"docs/studies/{name}.csv: written anew")
     (STUDIES / "compiler.txt").write_text(compiler(tool) + "\n")
