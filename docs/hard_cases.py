@@ -14,7 +14,7 @@ from cut_span import cut_span as exact_cut_span
 from table_tools import ROOT, short, table
 
 TESTS = "grid crossing*,a free end that passes*,a vanishing cut*,rigid flight*,a uniform strain*,extension*,constant stress*,with one particle*," \
-        "a body of two*,clustered*,velocity noise*,a million*,a thousand periods of the small*,a contrast*,with bulk viscosity*"
+        "a body of two*,clustered*,velocity noise*,a step of*,a million*,a thousand periods of the small*,a contrast*,with bulk viscosity*"
 SCHEMES = ["classical", "bspline", "tielen2017", "high-order"]
 
 
@@ -116,15 +116,18 @@ PANELS = [  # case, title, axes, options, and a curve beside
     ("shock-profile", "impact at c/2, 256 cells", "X, m", "stress, Pa", "set xrange [0:1]; set yrange [-0.75:0.1]", "shock"),
     ("stiffness-contrast-profile", "contrast 1e6, high-order", "X, m", "velocity, m/s", "set xrange [0:2]; set yrange [-0.12:0.12]", ""),
     ("extreme-extension", "extension to λ = 10", "X, m", "λ", "set xrange [0:1]; set yrange [0:16]", "ten"),
+    ("extreme-compression", "compression to λ = 0.05", "X, m", "λ", "set xrange [0:1]; set yrange [0:0.5]", "twentieth"),
+    ("flight", "rigid flight", "cells crossed", "error of position, m", "set logscale y 10; set xrange [0:50]; set yrange [1e-17:1e-10]", ""),
+    ("step-too-large", "1.05 of the critical step, forced", "t, s", "energy over that at the start", "set yrange [0:10]", ""),
 ]
-EXACT = {"ten": "10", "shock": "x < 0.75 ? -0.640388 : 0"}
+EXACT = {"ten": "10", "twentieth": "0.05", "shock": "x < 0.75 ? -0.640388 : 0"}
 
 
 def picture(tools, start, block, styles):
-    """Nine panels."""
+    """Twelve panels."""
     m = measured(tools)
-    script = start.format(size="1100,960", name="hard-cases").replace("Helvetica,15", "Helvetica,12")
-    script += 'set multiplot layout 3,3\nset format y "%g"\n'
+    script = start.format(size="1100,1280", name="hard-cases").replace("Helvetica,15", "Helvetica,12")
+    script += 'set multiplot layout 4,3\nset format y "%g"\n'
     colours = styles | {"before": ("#0072B2", 7), "after": ("#D55E00", 7)}
     for case, title, across, up, options, exact in PANELS:
         plots = []

@@ -176,8 +176,14 @@ TEST_CASE("a step of 1.05 of the limit is refused, and forced it ends as unstabl
     CHECK_THAT(message_of<hompm::SceneError>([&] { hompm::time_stepping(scene); }),
                contains("above the critical step"));
     const Scene forced = hard("step-too-large", {{"scheme.name", name}, {"scheme.allow_unstable", "true"}});
+    double start = 0.0;
+    hompm::RunObserver observer;
+    observer.history = [&](const hompm::HistoryRow& row) {
+      if (row.time == 0.0) start = row.kinetic + row.stored;
+      shown("step-too-large", name, row.time, (row.kinetic + row.stored) / start);
+    };
     const auto message =
-        message_of<hompm::InvalidRun>([&] { hompm::run(forced, hompm::time_stepping(forced)); });
+        message_of<hompm::InvalidRun>([&] { hompm::run(forced, hompm::time_stepping(forced), observer); });
     INFO(message);
     CHECK_THAT(message, contains("invalid at step ") && contains("here the time step is too large"));
   }
