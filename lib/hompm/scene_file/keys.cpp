@@ -43,7 +43,8 @@ std::string by_scheme(Word of_scheme) {
       same->second += ", " + scheme.name;
   }
   std::string text;
-  for (const auto& [said, of] : names) text += (text.empty() ? "" : "; ") + said + " with " + of;
+  for (const auto& [said, of] : names)
+    text.append(text.empty() ? "" : "; ").append(said).append(" with ").append(of);
   return text;
 }
 

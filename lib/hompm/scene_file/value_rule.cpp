@@ -55,7 +55,7 @@ std::string range_text(const ValueRule& rule) {
   if (rule.type == ValueType::word) return listed(rule.words);
   const bool below = std::isfinite(rule.minimum);
   const bool above = std::isfinite(rule.maximum);
-  const std::string least = below ? bound_text(rule.minimum) : "";
+  std::string least = below ? bound_text(rule.minimum) : "";
   if (!above) return below ? (rule.minimum_excluded ? "> " : "≥ ") + least : "";
   const std::string most = bound_text(rule.maximum);
   if (least == most) return least;
