@@ -86,7 +86,7 @@ def rows(tools):
         ("inverted", "inverted element", "stops with which particle, where, when", said(tools, "inverted")),
         ("step-too-large", "step too large", "refused with the limit; forced, it ends as unstable",
          said(tools, "step-too-large") + "; forced " + said(tools, "step-too-large", "--set", "scheme.allow_unstable=true")),
-        ("long-run", "long run", "energy bounded, no drift", "distance in the last of 1000 periods: " + each(m["long-run"], last)),
+        ("long-run", "long run", "energy bounded, no drift", "distance in the last of 1000 periods: " + each(m["long-run"], last, SCHEMES)),
         ("shock", "shock", "exact speed and plateau, no negative density",
          "speed, plateau, ripple: " + "; ".join(f"`{scheme}` " + ", ".join(percent(value) for value in points.values()) for scheme, points in shock.items())),
         ("null-space", "null space", "bounded; removed by the filter", "of the noise are left after 2000 steps: " + each(m["null-space"], last)),
@@ -104,6 +104,11 @@ def rows(tools):
 def hard_cases(tools):
     return table(["case", "must show", "shown"], [(f"[{name}](scenes/{'' if scene.startswith('..') else 'hard/'}{scene.removeprefix('../')}.toml)", must, shows)
                                                   for scene, name, must, shows in rows(tools)])
+
+
+def long_phases(tools):
+    return table(["scheme", "amplitude in the last period, over the first", "phase, periods ahead of the exact"],
+                 [(f"`{scheme}`", f"{points[0][0]:.3f}", f"{points[0][1]:.2f}") for scheme, points in measured(tools)["long-run-phase"].items()], range(1, 3))
 
 
 PANELS = [  # case, title, axes, options, and a curve beside

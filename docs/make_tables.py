@@ -520,7 +520,7 @@ PARTS = {
     "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),
     "outside-effect": source("tests/package/drag.cpp", "cpp"),
-    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "hard-cases": hard_cases.hard_cases, "jumps": jump_tables.jumps, "limit-own-stress": limit_own_stress, "parting": parting,
+    "keys": keys, "effect-keys": effect_keys, "mistake": mistake, "guards": guards, "hard-cases": hard_cases.hard_cases, "long-phases": hard_cases.long_phases, "jumps": jump_tables.jumps, "limit-own-stress": limit_own_stress, "parting": parting,
     "bar-large": lambda tools: error_tables(tools, "bar-large"),
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,
