@@ -46,7 +46,8 @@ void StepWatch::look(const std::vector<State>& states, RunExtremes& extremes) {
       extremes.largest_step_fraction =
           std::max(extremes.largest_step_fraction, states[body].time_step / critical_[body].at(states[body]));
   } catch (const InvalidRun&) {
-    // The step that comes next says the same of itself.
+    // What cannot be, the step that comes next says of itself. Where no step is stable the particles may
+    // pass; the guards see what grows.
   }  // LCOV_EXCL_LINE: no test has a run that ends at a check
 }
 
