@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <hompm/effects/body_end.hpp>
@@ -37,6 +38,16 @@ double least_kept(const SchemeChoices& choices) {
   if (choices.velocity_projection == VelocityProjection::least_squares) return 1.0;
   return choices.transfer == Transfer::flip ? choices.flip_fraction : 0.0;
 }
+
+/// With USL all that a particle keeps may be what the grid velocity says.
+bool keeps_what_the_grid_says(const SchemeChoices& choices) {
+  return choices.sequence == Sequence::usl &&
+         (choices.transfer == Transfer::pic || choices.transfer == Transfer::apic) &&
+         choices.velocity_projection == VelocityProjection::lumped;
+}
+
+/// 1/(1 + r) in powers of r, to 3e-4 for 0 ≤ r ≤ 1: through the five Chebyshev points.
+constexpr std::array inverse_of_one_and{0.9997, -0.98483, 0.86589, -0.53286, 0.15225};
 
 }  // namespace
 
@@ -99,6 +110,7 @@ void LinearStep::apply(const std::vector<double>& stress, std::vector<double>& r
   p.stress = stress;
   run_step();
   for (std::size_t i = 0; i < stiffening_.size(); ++i) result[i] = p.stress[i] * stiffening_[i];
+  if (keeps_what_the_grid_says(choices_)) return add_returns(result);
 
   const double kept = least_kept(choices_);
   const bool last = choices_.sequence == Sequence::usl;
@@ -112,18 +124,37 @@ void LinearStep::apply(const std::vector<double>& stress, std::vector<double>& r
     result[i] -= through_particles * (p.stress[i] * stiffening_[i]);
 }
 
-void LinearStep::run_step() {
+void LinearStep::add_returns(std::vector<double>& result) {
   State& state = simulation_.state();
   const Plan& plan = simulation_.plan();
-  Particles& p = state.particles;
-  std::fill(p.velocity_gradient.begin(), p.velocity_gradient.end(), 0.0);
+  for (double& r : result) r *= 2.0 * inverse_of_one_and.front();
+  std::fill(state.fields.acceleration.begin(), state.fields.acceleration.end(), 0.0);
+  for (std::size_t k = 1; k < inverse_of_one_and.size(); ++k) {
+    plan.run(Phase::transfer, state);
+    plan.run(Phase::velocity, state);
+    strain();
+    for (std::size_t i = 0; i < stiffening_.size(); ++i)
+      result[i] += 2.0 * inverse_of_one_and[k] * state.particles.stress[i] * stiffening_[i];
+  }
+}
+
+void LinearStep::run_step() {
+  State& state = simulation_.state();
+  auto& gradient = state.particles.velocity_gradient;
+  std::fill(gradient.begin(), gradient.end(), 0.0);
   for (const Phase phase : {Phase::end_stress, Phase::internal_force, Phase::acceleration, Phase::velocity})
-    plan.run(phase, state);
+    simulation_.plan().run(phase, state);
+  strain();
+}
+
+void LinearStep::strain() {
+  State& state = simulation_.state();
+  Particles& p = state.particles;
   // From rest, so that the motion leaves its own stress alone, whether it adds to the stress or sets it.
   std::fill(p.displacement.begin(), p.displacement.end(), 0.0);
   std::fill(p.stretch.begin(), p.stretch.end(), 1.0);
   std::fill(p.stress.begin(), p.stress.end(), 0.0);
-  plan.run(Phase::motion, state);
+  simulation_.plan().run(Phase::motion, state);
 }
 
 }  // namespace hompm

@@ -16,8 +16,9 @@ namespace hompm {
 ///
 /// A transfer that keeps the part f of a mode's velocity in a step, 0 ≤ f ≤ 1, lowers the limit: what counts
 /// is 2/(1 + f) times that turn. With USL the kick goes straight to the grid, K, and once more through the
-/// particles, K': what counts is 2 K − 2 f/(1 + f) K'. f is taken as small as the transfer can make it. USF
-/// has the limit of MUSL.
+/// particles, K': what counts is 2 K − 2 f/(1 + f) K'. f is taken as small as the transfer can make it. Where
+/// with USL nothing is kept but what the grid velocity says (PIC, APIC), what counts is 2 (I + R)⁻¹ K, R what
+/// becomes of a grid velocity that goes to the particles and back. USF has the limit of MUSL.
 class LinearStep {
  public:
   /// Throws as `Simulation`.
@@ -43,6 +44,10 @@ class LinearStep {
 
   /// Forces of the stress, velocities, and the stress of the motion alone.
   void run_step();
+  /// The stress of the motion with the grid velocity, from rest.
+  void strain();
+  /// Makes of K s, where `run_step` has left the grid velocity of it, 2 (I + R)⁻¹ K s.
+  void add_returns(std::vector<double>& result);
 
   SchemeChoices choices_;
   Material material_;
