@@ -422,7 +422,7 @@ def plan(tools):
     return ["```text", *tools.text("--case", "column", "--explain").rstrip().split("\n"), "```"]
 
 
-# What the meaning of a key in docs/scenes.md points at.
+# What the meaning of a key in docs/scene.md points at.
 MORE = {
     "initial.displacement.shape": "[start](#start)",
     "material.law": "[formulas](method.md#materials)", "rest.speed": "[rest](method.md#rest)", "scheme.name": "[schemes](schemes.md)",
@@ -468,7 +468,7 @@ def effect_keys(tools):
 
 
 def mistake(tools):
-    """What the mistake in docs/scenes.md leads to."""
+    """What the mistake in docs/scene.md leads to."""
     return ["```text", *tools.complaint("--case", "bar", "--set", "scheme.cels=32").rstrip().split("\n"), "```"]
 
 
@@ -541,10 +541,10 @@ def mentions(tools):
     yield from (("docs/outputs.md", key) for key in keys if key != "reason")
     for variant in (["bar", "--variant", "large"], ["column", "--variant", "settled"]):
         scene = tools.report("--case", *variant, "--end-time", "0.01")[1] / "scene.toml"
-        yield from (("docs/scenes.md", key) for key in keys_of(tomllib.loads(scene.read_text())))
+        yield from (("docs/scene.md", key) for key in keys_of(tomllib.loads(scene.read_text())))
     for line in tools.text("--list").split("\n"):
         if re.match(r"(  |  {18})\S", line):  # a name, or a parameter of an effect
-            yield "docs/scenes.md", line.split()[0]
+            yield "docs/scene.md", line.split()[0]
     usage = subprocess.run([tools.run_tool.parent / "hompm-diff", "--help"], capture_output=True, text=True, check=True).stdout
     yield from (("docs/comparing.md", option) for option in re.findall(r"^  (--[\w-]+)", usage, re.MULTILINE))
     scene = ["--case", "column", "--set", "ends.left=free", "--set", "ends.right=fixed"]

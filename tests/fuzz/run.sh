@@ -1,10 +1,10 @@
 #!/bin/sh
-# Feeds what users bring, scenes and tables of results, with mutations of good and bad ones to the readers, SECONDS (30) for each
-# reader, under the address and undefined-behaviour sanitizers. Fails at a crash, a hang, a leak or too much memory; the
+# Feeds what users bring, scenes and tables of results, with mutations of good and bad ones to the readers, SECONDS (60) for each
+# reader, both at a time, under the address and undefined-behaviour sanitizers. Fails at a crash, a hang, a leak or too much memory; the
 # file that did it is then in build/fuzz/findings. What was found to be of interest is kept, and the next run starts from it.
 set -eu
 cd "$(dirname "$0")/../.."
-seconds=${1:-30}
+seconds=${1:-60}
 cli/setup.sh --tests
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target fuzz_scene fuzz_csv -- --quiet
@@ -34,5 +34,7 @@ fuzz() {
   }
   grep -E 'number_of_executed|peak_rss' "$1".log
 }
-fuzz scene 16384
+fuzz scene 16384 &
+scene=$!
 fuzz csv 4096
+wait $scene
