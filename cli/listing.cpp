@@ -47,7 +47,7 @@ std::string catalogue_text() {
             (scene.is_default ? "default\n" : "\n");
   text += "\nschemes (--scheme)\n";
   for (const auto& scheme : hompm::scheme_table())
-    text += "  " + padded(scheme.name, 14) + scheme.summary + "; " + degrees(scheme) + "\n" + padded("", 16) +
+    text += "  " + padded(scheme.name, 18) + scheme.summary + "; " + degrees(scheme) + "\n" + padded("", 20) +
             scheme.source + "\n";
   text += "\nmaterials (material.law)\n";
   for (const auto& [name, formula] : hompm::material_laws()) text += "  " + padded(name, 14) + formula + "\n";

@@ -190,11 +190,11 @@ def only(pattern):
 
 def scheme_rows():
     """The rows of the table of schemes, from its source."""
-    text = only("**/scheme_table.cpp").read_text()
+    text = re.sub(r'"\n *"', "", only("**/scheme_table.cpp").read_text())  # one string over many lines
     rows = []
     for block in re.split(r"\{(?=\.name = )", text)[1:]:
         block = block[:block.index(".choices")]
-        rows.append({key: value.strip('"') for key, value in re.findall(r'\.(\w+) = ("[^"]*"|\w+)', block)})
+        rows.append({key: value.strip('"') for key, value in re.findall(r'\.(\w+) =\s+("[^"]*"|\w+)', block)})
     return rows
 
 
@@ -205,7 +205,8 @@ def degrees(row):
 
 def schemes(_tools):
     rows = [[f"`{row['name']}`", degrees(row), row["summary"],
-             row["source"].replace("Moller", "Möller").replace("docs/method.md", "[high order](docs/high-order.md)")] for row in scheme_rows()]
+             row["source"].replace("Moller", "Möller").replace("docs/method.md", "[high order](docs/high-order.md)")
+             .replace("docs/schemes.md", "[schemes](docs/schemes.md#taylor-least-squares)")] for row in scheme_rows()]
     return table(["scheme", "degree p", "what it is", "source"], rows)
 
 

@@ -82,8 +82,10 @@ const std::vector<Scheme>& scheme_table() {
                    .velocity_projection = VelocityProjection::consistent,
                    .free_end = FreeEnd::cut_span}},
       {.name = "tls",
-       .summary = "B-splines, Taylor least squares that keep the mass of each cell",
-       .source = "Wobbes, Moller, Galavi, Vuik, Int. J. Numer. Methods Engrg. 117 (2019) 271-290",
+       .summary = "B-splines, Taylor least squares that keep the mass of each cell, null-space relaxation",
+       .source =
+           "Wobbes, Moller, Galavi, Vuik, Int. J. Numer. Methods Engrg. 117 (2019) 271-290; the relaxation: "
+           "docs/schemes.md",
        .lowest_degree = 1,
        .highest_degree = 3,
        .default_degree = 2,
