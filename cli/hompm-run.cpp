@@ -26,8 +26,8 @@
 #include <hompm/output/run_report.hpp>
 #include <hompm/recorder/checkpoint_writer.hpp>
 #include <hompm/recorder/trace.hpp>
-#include <hompm/scene/caution.hpp>
 #include <hompm/scene_file/reader.hpp>
+#include <hompm/simulation/caution.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/verify/compare.hpp>
 

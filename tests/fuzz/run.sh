@@ -36,5 +36,9 @@ fuzz() {
 }
 fuzz scene 16384 &
 scene=$!
-fuzz csv 4096
-wait $scene
+fuzz csv 4096 &
+csv=$!
+failed=0
+wait $scene || failed=1
+wait $csv || failed=1
+exit $failed

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/scene/caution.hpp>
 #include <hompm/scene_file/reader.hpp>
+#include <hompm/simulation/caution.hpp>
 #include <hompm/simulation/critical_step.hpp>
 #include <hompm/verify/judge.hpp>
 

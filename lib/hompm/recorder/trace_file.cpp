@@ -45,9 +45,12 @@ void TraceFile::read_header() {
   stages.resize(in_.count(16));
   for (TraceStage& stage : stages) stage = {in_.text(), in_.text()};
   fields.resize(in_.count(48));
+  std::size_t next_body = 0;
   for (TraceField& field : fields) {
     field.name = in_.text();
     field.body = static_cast<std::size_t>(in_.word());
+    if (field.body > next_body) damaged();
+    next_body = field.body + 1;
     field.site = static_cast<Site>(in_.word());
     field.is_integer = in_.word() != 0;
     field.size = static_cast<std::size_t>(in_.word());

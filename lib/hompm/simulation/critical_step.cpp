@@ -50,12 +50,17 @@ Scene ends_of(const Scene& scene) {
   ends.scheme.cells = cells;
   ends.scheme.margin_cells = scene.scheme.degree + 2;
   ends.grid = {};
-  // What holds an end where it stands has no part in the limit, and a wall would stand off this grid.
-  std::erase_if(ends.effects, [&](const EffectSpec& spec) {
+  return ends;
+}
+
+/// Without what holds an end where it stands: that has no part in the limit, and a wall would stand off the
+/// grid of a shorter body.
+Scene let_go(Scene scene) {
+  std::erase_if(scene.effects, [&](const EffectSpec& spec) {
     const EffectType& type = find_effect(scene, spec);
     return type.holds_end && !type.own_stress;
   });
-  return ends;
+  return scene;
 }
 
 }  // namespace
@@ -129,7 +134,7 @@ double limit_of_free_ends(const Scene& scene) {
   double least = or_refused("the scene cannot be started: ", [&] { return CriticalStep(scene).at(start); });
   if (!moving_free_end(scene)) return least;
 
-  const Scene few_cells = ends_of(scene);
+  const Scene few_cells = let_go(ends_of(scene));
   const State ends = Simulation(few_cells, 1.0).state();
   CriticalStep critical(few_cells);
   const double spacing = 1.0 / scene.scheme.particles_per_cell;
@@ -144,11 +149,10 @@ double limit_of_free_ends(const Scene& scene) {
 double critical_time_step(const Scene& scene) {
   const double limit = limit_of_free_ends(scene);
   if (!detail::has_held_ends(scene)) return limit;
-  Scene few_cells = ends_of(scene);
-  few_cells.effects = scene.effects;
-  constexpr double most_steps = 4000.0;  // what grows less than e times in a thousand is left to the guards
+  const Scene few_cells = ends_of(scene);
+  constexpr double steps = 4000.0;  // what grows less than e times in a thousand is left to the guards
   for (const double part : {1.0, 0.75, 0.5})
-    if (detail::stays_bounded(few_cells, 0.98 * part * limit, static_cast<int>(most_steps / part)))
+    if (detail::stays_bounded(few_cells, 0.98 * part * limit, static_cast<int>(steps / part)))
       return part * limit;
   refuse(
       scene,

@@ -25,22 +25,20 @@ const std::map<std::string, Values>& usual_values() {
 std::vector<Sweep> usual_sweeps() {
   const Axis particles{"scheme.particles_per_cell", {"2", "4"}};
   const Axis cells{"scheme.cells", {"4", "8", "16", "32", "64"}};
+  const auto higher_order = [&](const std::string& integrator, const Values& courant) -> Sweep {
+    return {{"scheme.name", {"higher-order"}},
+            {"scheme.degree", {"all"}},
+            {"scheme.time_integrator", {integrator}},
+            cells,
+            particles,
+            {"scheme.courant", courant}};
+  };
   return {{{"scheme.name", {"first-order"}},
            {"scheme.cells", {"8", "16", "32", "64", "128", "256"}},
            particles,
            {"scheme.courant", {"0.4", "0.1", "0.025"}}},
-          {{"scheme.name", {"higher-order"}},
-           {"scheme.degree", {"all"}},
-           {"scheme.time_integrator", {"leapfrog"}},
-           cells,
-           particles,
-           {"scheme.courant", {"0.4", "0.1", "0.025"}}},
-          {{"scheme.name", {"higher-order"}},
-           {"scheme.degree", {"all"}},
-           {"scheme.time_integrator", {"blanes-moan"}},
-           cells,
-           particles,
-           {"scheme.courant", {"0.8", "0.4"}}}};
+          higher_order("leapfrog", {"0.4", "0.1", "0.025"}),
+          higher_order("blanes-moan", {"0.8", "0.4"})};
 }
 
 std::vector<Axis> read_axes(const std::string& text) {

@@ -166,10 +166,6 @@ std::string fault(const std::string& text, const Drawn& drawn, double& open) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// False for what is not understood.
 bool read(int argc, char** argv, Drawn& drawn) {
   for (int i = 1; i < argc; ++i) {
@@ -224,9 +220,11 @@ int main(int argc, char** argv) {
     ++done;
     if (wrong.empty()) continue;
     ++failed;
-    std::printf("%s\n  again: random_scenes --strain %s --fraction %s --seed %llu --count 1 --show\n",
+    const std::string bound = drawn.open ? " --open " + hompm::to_text(*drawn.open) : "";
+    std::printf("%s\n  again: random_scenes --strain %s --fraction %s%s --seed %llu --count 1 --show\n",
                 wrong.c_str(), hompm::to_text(drawn.strain).c_str(),
-                hompm::to_text(drawn.step_fraction).c_str(), static_cast<unsigned long long>(seed));
+                hompm::to_text(drawn.step_fraction).c_str(), bound.c_str(),
+                static_cast<unsigned long long>(seed));
   }
   std::printf(
       "%llu scenes, %llu more refused, %llu failed; the widest energy residual is %.2g of the energy at "

@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include <hompm/scene/caution.hpp>
+#include <hompm/simulation/caution.hpp>
+#include <hompm/simulation/critical_step.hpp>
 
 namespace hompm {
 
@@ -8,10 +9,7 @@ std::string caution(const Scene& scene) {
   const auto bodies = bodies_of(scene);
   const bool divides_by_little = std::any_of(bodies.begin(), bodies.end(), [](const Scene* body) {
     const SchemeSpec& scheme = body->scheme;
-    const bool free = body->ends.left == End::free || body->ends.right == End::free;
-    return scheme.choices.sequence == Sequence::usl && scheme.degree == 1 && free &&
-           body->kinematics == Kinematics::finite &&
-           scheme.choices.formulation == Formulation::updated_lagrangian;
+    return scheme.choices.sequence == Sequence::usl && scheme.degree == 1 && moving_free_end(*body);
   });
   if (!divides_by_little) return "";
   return "scheme.sequence = \"usl\" with hat functions divides forces at a moving free end by next to no "
