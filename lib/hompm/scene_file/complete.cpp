@@ -126,6 +126,17 @@ void check_choices(Reading& reading) {
               "= \"consistent\" " + needs_fields);
   demand_that(has_fields || c.velocity_projection != VelocityProjection::consistent, "velocity_projection",
               "= \"consistent\" " + needs_fields);
+  const bool lumped_velocity = c.velocity_projection == VelocityProjection::lumped;
+  demand_that(
+      !has_fields || !lumped_velocity || c.acceleration_mass == MassForm::lumped ||
+          c.conserve == Conserve::momentum,
+      "velocity_projection",
+      "= \"lumped\" divides momenta of particles by their masses, not by row sums of a consistent mass: "
+      "`scheme.acceleration_mass` must be \"lumped\", or `scheme.conserve` \"momentum\"");
+  demand_that(
+      !lumped_velocity || !c.markers, "velocity_projection",
+      "= \"lumped\" leaves functions that a marker alone touches without a velocity: `scheme.markers` "
+      "must be false");
   demand_that(has_fields || c.free_end == FreeEnd::particles, "free_end",
               "other than \"particles\" " + needs_fields);
   demand_that(has_fields || c.conserve != Conserve::cell_mass, "conserve", "= \"cell-mass\" " + needs_fields);
@@ -147,11 +158,11 @@ void check_choices(Reading& reading) {
   demand_that(c.conserve != Conserve::momentum || c.acceleration_mass == MassForm::consistent, "conserve",
               "= \"momentum\" corrects the consistent mass: `scheme.acceleration_mass` must be "
               "\"consistent\"; lumped mass conserves momentum as it is");
-  demand_that(c.free_end != FreeEnd::extension || c.acceleration_mass == MassForm::consistent ||
-                  c.velocity_projection != VelocityProjection::lumped,
-              "free_end",
-              "= \"extension\" ties functions of a consistent mass: `scheme.acceleration_mass` or "
-              "`scheme.velocity_projection` must have one");
+  demand_that(
+      c.free_end != FreeEnd::extension || c.acceleration_mass == MassForm::consistent || !lumped_velocity,
+      "free_end",
+      "= \"extension\" ties functions of a consistent mass: `scheme.acceleration_mass` or "
+      "`scheme.velocity_projection` must have one");
   demand_that(c.transfer != Transfer::apic || c.sequence == Sequence::usl, "transfer",
               "= \"apic\" gives back the velocity after the kick: `scheme.sequence` must be \"usl\"");
   demand_that(c.transfer != Transfer::apic || c.velocity_projection == VelocityProjection::lumped, "transfer",

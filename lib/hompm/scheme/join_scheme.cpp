@@ -83,14 +83,11 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
   else
     builder.add(Phase::geometry, "basis over the particle domains",
                 [basis = choices.basis](State& state) { detail::evaluate_domains(state, basis); });
-  const bool consistent = choices.acceleration_mass == MassForm::consistent;
-  const bool particle_row_sums = !consistent || choices.conserve == Conserve::momentum;
-  if (particle_row_sums)
-    builder.add(Phase::geometry, "lumped mass", [](State& state) {
-      std::fill(state.fields.mass.begin(), state.fields.mass.end(), 0.0);
-      scatter<P>(state, state.basis.values, state.fields.mass,
-                 [mass = state.particles.mass.data()](std::size_t p) { return mass[p]; });
-    });
+  const bool row_sums_of_density =
+      choices.acceleration_mass == MassForm::consistent && choices.conserve != Conserve::momentum;
+  if (!row_sums_of_density || P == 1) builder.add(Phase::geometry, "lumped mass", detail::sum_masses<P>);
+  if (choices.basis == Basis::smoothed_gradients)
+    builder.add(Phase::geometry, "smoothed gradients", detail::smooth_gradients);
   if (least_squares)
     builder.add(
         Phase::geometry, "least squares on the grid",
@@ -108,7 +105,7 @@ void join_geometry(PlanBuilder& builder, const Shared& splines,
         splines->update_consistent_mass(state);
       },
       "per Gauss point: density; per function: band matrix");
-  if (!particle_row_sums)
+  if (row_sums_of_density)
     builder.add(Phase::geometry, "row sums of the mass",
                 [splines](State& state) { splines->row_sums(state.fields.mass); });
 }

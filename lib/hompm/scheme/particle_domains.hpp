@@ -78,51 +78,55 @@ std::int32_t weigh_domain(const State& state, std::size_t p, Domain domain, doub
   return first;
 }
 
-struct Nodes {
-  int first, last;
-};
-
-/// The nodes of the cells from the first particle to the last. Throws `InvalidRun` for one outside the grid.
-inline Nodes nodes_of(const State& state) {
-  Nodes nodes{state.grid.cells(), 0};
-  for (std::size_t p = 0; p < state.particles.size(); ++p) {
-    const int cell = state.grid.locate(state.particles.position[p]).cell;
-    if (cell < 0) throw_left_grid(state, p);
-    nodes = {std::min(nodes.first, cell), std::max(nodes.last, cell + 1)};
-  }
-  return nodes;
-}
-
-/// Hat functions at the particle, with the gradient α N_i′ + (1 − α) Σ_j N_j g_ij of Zhang, Ma, Giguere
-/// (2011): g_ij = ∫ N_j N_i′ dx / ∫ N_j dx, the mean gradient around node j, and α = 2 N_c N_{c+1} in cell c,
-/// which vanishes at the nodes, so that the gradient has no jump there. Means are over the cells between the
-/// outer particles: nodes beyond have no velocity.
-inline std::int32_t smooth_gradients(const State& state, std::size_t p, Nodes material, double* values,
-                                     double* gradients) {
-  const numerics::SplineSpace& grid = state.grid;
-  const auto at = grid.locate(state.particles.position[p]);
-  const int first = std::clamp(at.cell - 1, 0, grid.functions() - domain_stencil);
+/// The values of the hat functions at a particle. Throws `InvalidRun` for one outside the grid.
+inline std::int32_t hats_of_particle(const State& state, std::size_t p, double* values) {
+  const auto at = state.grid.locate(state.particles.position[p]);
+  if (at.cell < 0) throw_left_grid(state, p);
+  const int first = std::clamp(at.cell - 1, 0, state.grid.functions() - domain_stencil);
   std::fill_n(values, domain_stencil, 0.0);
-  std::fill_n(gradients, domain_stencil, 0.0);
-  const auto index = [first](int node) { return static_cast<std::size_t>(node - first); };
   const Hats n = hats_at(at.s);
-  const double per_width = 1.0 / grid.cell_width();
-  values[index(at.cell)] = n.left;
-  values[index(at.cell + 1)] = n.right;
-  const double alpha = 2.0 * n.left * n.right;
-  gradients[index(at.cell)] = -alpha * per_width;
-  gradients[index(at.cell + 1)] = alpha * per_width;
-  for (const auto& [node, share] : {std::pair(at.cell, n.left), std::pair(at.cell + 1, n.right)}) {
-    const int left = std::max(node - 1, material.first);
-    const int right = std::min(node + 1, material.last);
-    const double slope = (1.0 - alpha) * share * per_width / (right - left);
-    gradients[index(left)] -= slope;
-    gradients[index(right)] += slope;
-  }
+  values[at.cell - first] = n.left;
+  values[at.cell + 1 - first] = n.right;
   return first;
 }
 
-/// Evaluates a basis of four hat functions a particle. Throws `InvalidRun` for a particle outside the grid.
+/// Gradients α N_i′ + (1 − α) Σ_j N_j g_ij of Zhang, Ma, Giguere (2011) for the particles: g_ij = ∫ N_j N_i′
+/// dx / ∫ N_j dx, the mean gradient around node j, and α = 2 N_c N_{c+1} in cell c, which vanishes at the
+/// nodes, so that the gradient has no jump there. Means are over the cells between nodes that have a
+/// velocity: by their mass, or by an essential condition.
+inline void smooth_gradients(State& state) {
+  const numerics::SplineSpace& grid = state.grid;
+  const std::vector<double>& mass = state.fields.mass;
+  const double per_width = 1.0 / grid.cell_width();
+  const auto has_velocity = [&](int node) {
+    if (node < 0 || node > grid.cells()) return false;
+    return mass[static_cast<std::size_t>(node)] > 0.0 || (node == 0 && state.ends.left == End::fixed) ||
+           (node == grid.cells() && state.ends.right == End::fixed);
+  };
+  double* gradients = state.basis.gradients.data();
+  for (std::size_t p = 0; p < state.particles.size(); ++p, gradients += domain_stencil) {
+    const auto at = grid.locate(state.particles.position[p]);
+    std::fill_n(gradients, domain_stencil, 0.0);
+    const auto index = [first = state.basis.first[p]](int node) {
+      return static_cast<std::size_t>(node - first);
+    };
+    const Hats n = hats_at(at.s);
+    const double alpha = 2.0 * n.left * n.right;
+    gradients[index(at.cell)] = -alpha * per_width;
+    gradients[index(at.cell + 1)] = alpha * per_width;
+    for (const auto& [node, share] : {std::pair(at.cell, n.left), std::pair(at.cell + 1, n.right)}) {
+      const int left = has_velocity(node - 1) ? node - 1 : node;
+      const int right = has_velocity(node + 1) ? node + 1 : node;
+      if (left == right) continue;
+      const double slope = (1.0 - alpha) * share * per_width / (right - left);
+      gradients[index(left)] -= slope;
+      gradients[index(right)] += slope;
+    }
+  }
+}
+
+/// Evaluates a basis of four hat functions a particle, but for smoothed gradients. Throws `InvalidRun` for a
+/// particle outside the grid.
 inline void evaluate_domains(State& state, Basis basis) {
   const Particles& particles = state.particles;
   double* values = state.basis.values.data();
@@ -147,9 +151,7 @@ inline void evaluate_domains(State& state, Basis basis) {
         return weigh_domain<DomainValues::ends>(state, p, carried(state, p), values, gradients);
       });
     default:
-      return for_particles([&, material = nodes_of(state)](std::size_t p) {
-        return smooth_gradients(state, p, material, values, gradients);
-      });
+      return for_particles([&](std::size_t p) { return hats_of_particle(state, p, values); });
   }
 }
 

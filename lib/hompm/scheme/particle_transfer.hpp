@@ -28,12 +28,19 @@ void evaluate_basis(State& state) {
   }
 }
 
+/// The particles before `next` in one cell give its function ahead no mass: they are on the knot at the start
+/// of the cell. Where no other particle gives it one, nor an essential condition a velocity, they go to the
+/// cell behind, where their values are the same; where the function behind has neither, they have no
+/// gradient.
+void leave_cell_without_mass(State& state, std::size_t next);
+
 /// `target_i += Σ_p amount(p) w_i(x_p)`, with w the values or gradients of the basis at the particles. Sums
 /// run in the order of the particles, so the bits are reproducible; those of the cell under way stay in
-/// registers.
-template <int P, class Amount>
+/// registers. After those of a cell `after_cell(p, sum)` is called, with the next particle and the sum of the
+/// last function so far.
+template <int P, class Amount, class AfterCell>
 void scatter(const State& state, const std::vector<double>& weights, std::vector<double>& target,
-             Amount amount) {
+             Amount amount, AfterCell after_cell) {
   const std::size_t count = state.particles.size();
   const std::int32_t* first = state.basis.first.data();
   const double* w = weights.data();
@@ -49,7 +56,28 @@ void scatter(const State& state, const std::vector<double>& weights, std::vector
       ++p;
     } while (p < count && first[p] == cell);
     for (std::size_t k = 0; k <= P; ++k) t[k] = sum[k];
+    after_cell(p, sum[P]);
   }
+}
+template <int P, class Amount>
+void scatter(const State& state, const std::vector<double>& weights, std::vector<double>& target,
+             Amount amount) {
+  scatter<P>(state, weights, target, amount, [](std::size_t, double) {});
+}
+
+/// M_i = Σ_p m_p N_i. Hat functions have two gradients at a knot, and a particle there takes part in the
+/// functions of the cell ahead; where the function ahead has no mass, in those of the cell behind.
+template <int P>
+void sum_masses(State& state) {
+  std::vector<double>& mass = state.fields.mass;
+  std::fill(mass.begin(), mass.end(), 0.0);
+  const auto amount = [m = state.particles.mass.data()](std::size_t p) { return m[p]; };
+  if constexpr (P == 1)
+    scatter<P>(state, state.basis.values, mass, amount, [&](std::size_t next, double ahead) {
+      if (!(ahead > 0.0)) leave_cell_without_mass(state, next);
+    });
+  else
+    scatter<P>(state, state.basis.values, mass, amount);
 }
 
 /// Σ_p m_p q_p N_i

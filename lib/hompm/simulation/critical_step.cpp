@@ -46,10 +46,17 @@ Scene ends_of(const Scene& scene) {
   constexpr int enough = 16;
   Scene ends = scene;
   const int cells = std::min(scene.scheme.cells, enough);
+  const double width = scene.body.length / scene.scheme.cells;
   ends.body.length = scene.body.length * cells / scene.scheme.cells;
   ends.scheme.cells = cells;
   ends.scheme.margin_cells = scene.scheme.degree + 2;
   ends.grid = {};
+  if (auto& displacement = ends.initial_displacement) {
+    // The same stretch at the ends; where they are does not count, but they must be on the grid.
+    displacement->amplitude *= displacement->shape == "sine" ? ends.body.length / scene.body.length : 0.0;
+    const double longer = std::max(0.0, displacement->at(1.0, ends.body.length));
+    ends.scheme.margin_cells += static_cast<int>(std::ceil(longer / width));
+  }
   return ends;
 }
 

@@ -1,0 +1,27 @@
+#include <hompm/scheme/particle_transfer.hpp>
+
+namespace hompm::detail {
+
+void leave_cell_without_mass(State& state, std::size_t next) {
+  BasisAtParticles& basis = state.basis;
+  const std::vector<double>& mass = state.fields.mass;
+  const std::int32_t cell = basis.first[next - 1];
+  // Particles of the next cell come later, and touch the function between.
+  if (next < basis.first.size() && basis.first[next] == cell + 1) return;
+  if (cell + 1 == state.grid.cells() && state.ends.right == End::fixed) return;
+  const bool behind = cell > 0 && (mass[static_cast<std::size_t>(cell) - 1] > 0.0 ||
+                                   (cell == 1 && state.ends.left == End::fixed));
+  for (std::size_t p = next; p-- > 0 && basis.first[p] == cell;) {
+    double* values = &basis.values[2 * p];
+    if (values[1] > 0.0) continue;  // a marker off the knot, which has no mass
+    double* gradients = &basis.gradients[2 * p];
+    if (behind) {
+      basis.first[p] = cell - 1;
+      state.grid.evaluate<1>({cell - 1, 1.0}, values, gradients);
+    } else {
+      gradients[0] = gradients[1] = 0.0;
+    }
+  }
+}
+
+}  // namespace hompm::detail
