@@ -24,6 +24,8 @@ import textwrap
 import tomllib
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "reproducibility"))
+import cells  # noqa: E402
 import hard_cases  # noqa: E402
 import high_order_tables  # noqa: E402
 import jump_tables  # noqa: E402
@@ -504,7 +506,13 @@ def examples(_tools):
     return table(["scene", "what happens", "effects"], rows)
 
 
+def refused_builds(_tools):
+    return table(["what the build does", "builds that must be refused with this cause"],
+                 [[what, ", ".join(f"`{command}`" for command in builds)] for what, _, builds in cells.REFUSED_BUILDS])
+
+
 PARTS = {
+    "refused-builds": refused_builds,
     "schemes": schemes, "choices": choices, "cases": cases, "plan": plan, "output": output, "limits": limits, "limits-p1": limits_p1,
     "limit-map": limit_map, "long-bars": long_bars, "limit-cut": limit_cut,
     "rooms": rooms, "examples": examples,

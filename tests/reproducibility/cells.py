@@ -45,3 +45,22 @@ CELLS = {
     "refused: contraction": Cell("gcc-contracted", last_flags="-mfma;-ffp-contract=fast", cpu_flag="fma",
                                  refused_with="build with -ffp-contract=off"),
 }
+
+
+# What the check of the arithmetic refuses: what is done, a part of the message, builds that do it (with -ffp-contract=off before).
+REFUSED_BUILDS = [
+    ("all that `-ffast-math` stands for", "build without -ffast-math",
+     ["g++ -O2 -ffast-math", "g++ -Ofast", "clang++ -O2 -ffast-math", "clang++ -Ofast", "clang++ -O2 -ffp-model=fast"]),
+    ("a product and a sum become one rounding", "-ffp-contract=off",
+     ["g++ -O2 -mfma -ffp-contract=fast", "clang++ -O1 -mfma -ffp-contract=fast", "clang++ -O2 -mfma -ffp-contract=on"]),
+    ("x/h becomes x·(1/h)", "-freciprocal-math", ["g++ -O2 -freciprocal-math", "clang++ -O2 -freciprocal-math"]),
+    ("sums in another order", "-fassociative-math",
+     ["g++ -O2 -funsafe-math-optimizations", "g++ -O2 -fassociative-math -fno-signed-zeros -fno-trapping-math",
+      "clang++ -O2 -funsafe-math-optimizations", "clang++ -O2 -fassociative-math -fno-signed-zeros -fno-trapping-math"]),
+    ("every number is taken for finite", "-ffinite-math-only",
+     ["g++ -O2 -ffinite-math-only", "clang++ -O2 -ffinite-math-only", "clang++ -O2 -fno-honor-nans"]),
+    ("−0 is taken for 0", "-fno-signed-zeros", ["g++ -O2 -fno-signed-zeros", "clang++ -O2 -fno-signed-zeros"]),
+    ("more than double precision: `FLT_EVAL_METHOD` is not 0", "FLT_EVAL_METHOD",
+     ["g++ -O2 -mfpmath=both", "g++ -O2 -mfpmath=387", "g++ -O0 -mfpmath=387 -ffloat-store"]),
+    ("constants are read as float", "-fsingle-precision-constant", ["g++ -O2 -fsingle-precision-constant", "g++ -O0 -fsingle-precision-constant"]),
+]

@@ -50,10 +50,11 @@ def why_not(cell):
     return ""
 
 
-def build(cell, folder, headers):
-    """Builds golden_runner and returns the folder of its build."""
+def build(cell, folder, headers, unity=True):
+    """Builds golden_runner; most of the library is one translation unit, or each file one."""
     configure = ["cmake", "-S", HERE / "cell", "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
                  f"-DCMAKE_CXX_FLAGS={cell.flags}", f"-DHOMPM_LAST_FLAGS={cell.last_flags}", f"-DHOMPM_LEAVE_OUT_EFFECTS={cell.leave_out}",
+                 f"-DHOMPM_UNITY={'ON' if unity else 'OFF'}",
                  f"-DCMAKE_INTERPROCEDURAL_OPTIMIZATION={'ON' if cell.lto else 'OFF'}"]
     if headers:
         configure.append("-DHOMPM_HEADERS=" + ";".join(headers))
@@ -87,20 +88,18 @@ def difference(mine, theirs):
     return f"{len(differing)} lines differ, first line {i}:\n  here   {a[i - 1].decode()}\n  golden {b[i - 1].decode()}"
 
 
-def compare(output, folders):
-    """Demands that all files of the golden folders but the provenance stand below `output`, too; returns their number and size."""
-    complaints, count, size = [], 0, 0
+def differences(output, folders):
+    """What differs below `output` from the files of the golden folders but the provenance; the number and size of these."""
+    found, count, size = [], 0, 0
     for golden in folders:
         for theirs in sorted(path for path in golden.iterdir() if path.name != "provenance.json"):
             mine = output / golden.name / theirs.name
             count, size = count + 1, size + theirs.stat().st_size
             if not mine.exists():
-                complaints.append(f"{golden.name}/{theirs.name} is missing")
+                found.append(f"{golden.name}/{theirs.name} is missing")
             elif mine.read_bytes() != theirs.read_bytes():
-                complaints.append(f"{golden.name}/{theirs.name}: {difference(mine, theirs)}")
-    if complaints:
-        sys.exit("\n".join(complaints))
-    return count, size
+                found.append(f"{golden.name}/{theirs.name}: {difference(mine, theirs)}")
+    return found, count, size
 
 
 def used_seconds():
@@ -130,7 +129,9 @@ def run_cell(name, build_dir, headers, folders):
         return 0
     if done.returncode != 0:
         sys.exit(f"golden_runner ended with {done.returncode}:\n{done.stderr}")
-    count, size = compare(output, folders)
+    found, count, size = differences(output, folders)
+    if found:
+        sys.exit("\n".join(found))
     seconds_to_run = used_seconds() - seconds_to_build
     # The objects of a build with LTO hold no machine code yet.
     binary = folder / ("golden_runner" if cell.lto else "lib/libhompm.a")

@@ -29,6 +29,6 @@ TEST_CASE("a process that flushes subnormal numbers to zero is refused") {
   _mm_setcsr(before | _MM_FLUSH_ZERO_ON);
   const std::string message = message_of<hompm::ArithmeticError>(check_floating_point);
   _mm_setcsr(before);
-  CHECK(message == "subnormal numbers are flushed to zero here; build without -ffast-math");
+  CHECK(message.starts_with("subnormal numbers are flushed to zero here"));
 }
 #endif

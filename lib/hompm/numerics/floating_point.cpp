@@ -1,41 +1,171 @@
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
 #include <hompm/error.hpp>
 #include <hompm/numerics/floating_point.hpp>
 
 namespace hompm::numerics {
 namespace {
 
-// Each operand is volatile so that the machine computes at run time what the rest of the library computes at
-// run time.
-double contracted(double a, double b) { return a * a - b; }
-double reassociated(double a, double b) { return (a + b) - a; }
+// What the compiler says of itself (g++ more than clang++). A probe below may miss what is done elsewhere.
+#if defined(__FAST_MATH__)
+constexpr bool fast_math = true;
+#else
+constexpr bool fast_math = false;
+#endif
+#if defined(__FINITE_MATH_ONLY__)
+constexpr bool finite_only = __FINITE_MATH_ONLY__ != 0;
+#else
+constexpr bool finite_only = false;
+#endif
+#if defined(__ASSOCIATIVE_MATH__)
+constexpr bool associative = true;
+#else
+constexpr bool associative = false;
+#endif
+#if defined(__RECIPROCAL_MATH__)
+constexpr bool reciprocal = true;
+#else
+constexpr bool reciprocal = false;
+#endif
+#if defined(__NO_SIGNED_ZEROS__)
+constexpr bool no_signed_zeros = true;
+#else
+constexpr bool no_signed_zeros = false;
+#endif
 
-constexpr auto contracts = "this build contracts a*b + c into one rounding; build with -ffp-contract=off";
-constexpr auto reorders = "this build reorders sums or keeps extra digits; build without -ffast-math";
+/// A value that the compiler does not know, rounded to double: the machine computes at run time, as it does
+/// in a run, and `a - b != 0` does not become `a != b`.
+double unknown(double value) {
+  const volatile double hidden = value;
+  return hidden;
+}
+
+/// The first n values first, first + step, ..., unknown to the compiler.
+std::array<double, 16> unknown_row(double first, double step) {
+  std::array<double, 16> row{};
+  for (double& value : row) {
+    value = unknown(first);
+    first += step;
+  }
+  return row;
+}
+
+double halved(double a) { return a * 0.5; }
+
+bool has_float_constants() { return sizeof(0.1) != sizeof(double) || 0.1 == 0.1F; }
+
+bool has_excess_precision() {
+  // Rounded to 64 bits the sum is half-way between two doubles, and a second rounding goes the other way.
+  const volatile double twice_rounded = unknown(1.0) + unknown(0x1p-53 + 0x1p-78);
+  return FLT_EVAL_METHOD != 0 || twice_rounded == 1.0;
+}
+
+/// Each sum is rounded to double when it is stored, so that excess precision does not look like this.
+bool rounds_otherwise() {
+  const volatile double up = unknown(1.0) + unknown(0x1.8p-53);
+  const volatile double down = unknown(1.0) + unknown(0x1.8p-54);
+  return up == 1.0 || down != 1.0 || -unknown(1.0) - unknown(0x1.8p-53) == -1.0 ||
+         -unknown(1.0) - unknown(0x1.8p-54) != -1.0;
+}
+
+/// a² rounded is b; the exact square has 2⁻⁵⁴ more. One use of the product: compilers contract within a
+/// block.
+bool contracts() {
+  const double a = unknown(1.0 + 0x1p-27);
+  const double b = unknown(1.0 + 0x1p-26);
+  return unknown(a * a - b) != 0.0;
+}
+
+/// 49 k / 49 is k, but 49 · (1/49) is not 1.
+bool divides_by_reciprocals() {
+  if (reciprocal) return true;
+  const auto x = unknown_row(49.0, 49.0);
+  const double h = unknown(49.0);
+  std::array<double, 16> by_unknown{};
+  std::array<double, 16> by_constant{};
+  for (std::size_t i = 0; i < x.size(); ++i) by_unknown[i] = x[i] / h;
+  for (std::size_t i = 0; i < x.size(); ++i) by_constant[i] = x[i] / 49.0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (by_unknown[i] != static_cast<double>(i + 1) || by_constant[i] != static_cast<double>(i + 1))
+      return true;
+  return false;
+}
+
+bool reorders_sums() {
+  const double one = unknown(1.0);
+  const double tiny = unknown(0x1p-60);
+  double sum = one;
+  for (const double term : unknown_row(0x1p-53, 0.0)) sum += term;  // each too small, but not together
+  return associative || unknown((one + tiny) - one) != 0.0 || unknown(sum) != 1.0;
+}
+
+bool forgets_signs_of_zeros() {
+  const double zero = unknown(-0.0);
+  return no_signed_zeros || std::signbit(zero + 0.0) || std::signbit(0.0 - unknown(0.0));
+}
+
+bool forgets_infinities() {
+  const double nan = unknown(std::numeric_limits<double>::quiet_NaN());
+  const double infinity = unknown(std::numeric_limits<double>::infinity());
+  return finite_only || !(nan != nan) || !std::isnan(nan) || std::isfinite(infinity) ||
+         !std::isinf(infinity) || infinity - infinity == 0.0;
+}
+
+/// At run time and where the compiler computes.
+bool flushes_subnormals() {
+  constexpr double smallest_normal = std::numeric_limits<double>::min();
+  return unknown(smallest_normal) * unknown(0.5) == 0.0 || halved(smallest_normal) == 0.0;
+}
+
+bool approximates_roots() {
+  for (const double k : unknown_row(1.0, 1.0))
+    if (std::sqrt(k * k) != k) return true;
+  return std::sqrt(unknown(2.0)) != 0x1.6a09e667f3bcdp+0 || std::sqrt(unknown(3.0)) != 0x1.bb67ae8584caap+0;
+}
+
+struct Probe {
+  bool (*fails)();
+  const char* message;
+};
+
+// The cause comes before what it may look like further down.
+constexpr std::array probes{
+    Probe{has_float_constants,
+          "this build reads constants as float; build without -fsingle-precision-constant"},
+    Probe{rounds_otherwise, "the rounding mode is not to nearest"},
+    Probe{has_excess_precision,
+          "this build computes in more than double precision (FLT_EVAL_METHOD is not 0); build for SSE2, as "
+          "with -msse2 -mfpmath=sse, and not for the x87 unit"},
+    Probe{[] { return fast_math; }, "this build may change results; build without -ffast-math and -Ofast"},
+    Probe{contracts, "this build contracts a*b + c into one rounding; build with -ffp-contract=off"},
+    Probe{
+        reorders_sums,
+        "this build reorders sums; build without -fassociative-math (part of -funsafe-math-optimizations and "
+        "-ffast-math)"},
+    Probe{divides_by_reciprocals,
+          "this build computes x/h as x*(1/h); build without -freciprocal-math (part of "
+          "-funsafe-math-optimizations and -ffast-math)"},
+    Probe{forgets_infinities,
+          "this build takes every number for finite; build without -ffinite-math-only (part of -ffast-math)"},
+    Probe{
+        forgets_signs_of_zeros,
+        "this build takes -0 for 0; build without -fno-signed-zeros (part of -funsafe-math-optimizations and "
+        "-ffast-math)"},
+    Probe{flushes_subnormals,
+          "subnormal numbers are flushed to zero here; build without -ffast-math and "
+          "-fdenormal-fp-math, and link without -ffast-math and -mdaz-ftz"},
+    Probe{approximates_roots, "square roots are not rounded to nearest here; build without -mrecip"},
+};
 
 }  // namespace
 
 void check_floating_point() {
-  // First, for another rounding mode looks like some of the faults below.
-  const volatile double one = 1.0;
-  const volatile double just_above_half_ulp = 0x1.8p-53;
-  const volatile double just_below_half_ulp = 0x1.8p-54;
-  if (one + just_above_half_ulp != 1.0 + 0x1p-52 || one + just_below_half_ulp != 1.0 ||
-      -one - just_above_half_ulp != -1.0 - 0x1p-52 || -one - just_below_half_ulp != -1.0)
-    throw ArithmeticError("the rounding mode is not to nearest");
-
-  const volatile double near_one = 1.0 + 0x1p-27;
-  const volatile double square = 1.0 + 0x1p-26;  // near_one² rounded; the exact product has 2⁻⁵⁴ more
-  if (contracted(near_one, square) != 0.0)
-    throw ArithmeticError(contracts);  // LCOV_EXCL_LINE: a cell of tests/reproducibility
-
-  const volatile double tiny = 0x1p-60;
-  if (reassociated(one, tiny) != 0.0)
-    throw ArithmeticError(reorders);  // LCOV_EXCL_LINE: a cell of tests/reproducibility
-
-  const volatile double smallest_normal = 0x1p-1022;
-  const volatile double half = 0.5;
-  if (smallest_normal * half == 0.0)
-    throw ArithmeticError("subnormal numbers are flushed to zero here; build without -ffast-math");
+  for (const Probe& probe : probes)
+    if (probe.fails()) throw ArithmeticError(probe.message);
 }
 
 }  // namespace hompm::numerics
