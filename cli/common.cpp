@@ -7,11 +7,25 @@
 #include <iostream>
 #include <system_error>
 
+#include <nlohmann/json.hpp>
+
 #include <hompm/build_info.hpp>
 #include <hompm/error.hpp>
 #include <hompm/scene_file/reader.hpp>
 
-namespace hompm::cli {
+#include "text_table.hpp"
+
+namespace hompm {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BuildInfo, version, commit, compiler, flags, build_type, architecture,
+                                   boost)
+
+namespace cli {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Option, name, value, meaning)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Topic, name, about, examples, options)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Tool, name, usage, about, examples, topics, remarks)
+
 namespace {
 
 namespace po = boost::program_options;
@@ -24,11 +38,22 @@ bool read_whole(const std::string& text, Number& number) {
   return error == std::errc{} && stop == end;
 }
 
-CommandLine read_command_line(int argc, const char* const* argv, const po::options_description& options) {
+CommandLine read_command_line(int argc, const char* const* argv, const Tool& tool) {
   // The name of the option behind the arguments holds a blank, so that nobody can type it by accident.
   const char* const arguments = "other arguments";
   po::options_description all;
-  all.add(options).add_options()(arguments, po::value<std::vector<std::string>>());
+  std::vector<std::string> known;
+  for (const Topic& topic : tool.topics)
+    for (const Option& option : topic.options) {
+      known.push_back("--" + option.name.substr(0, option.name.find(',')));
+      if (option.value.empty())
+        all.add_options()(option.name.c_str(), "");
+      else if (option.value.ends_with("..."))
+        all.add_options()(option.name.c_str(), po::value<std::vector<std::string>>()->composing());
+      else
+        all.add_options()(option.name.c_str(), po::value<std::string>());
+    }
+  all.add_options()(arguments, po::value<std::vector<std::string>>());
   po::positional_options_description positional;
   positional.add(arguments, -1);
   try {
@@ -49,8 +74,6 @@ CommandLine read_command_line(int argc, const char* const* argv, const po::optio
       line.arguments = line.options[arguments].as<std::vector<std::string>>();
     return line;
   } catch (const po::unknown_option& error) {
-    std::vector<std::string> known;
-    for (const auto& option : options.options()) known.push_back("--" + option->long_name());
     throw UsageError("unknown option " + error.get_option_name() +
                      suggestion(error.get_option_name(), known));
   } catch (const po::error& error) {
@@ -58,27 +81,73 @@ CommandLine read_command_line(int argc, const char* const* argv, const po::optio
   }
 }
 
-/// What --help prints.
-std::ostream& operator<<(std::ostream& out, const Tool& tool) {
-  return out << tool.synopsis << '\n' << tool.options << '\n' << tool.remarks;
+/// What a command line without arguments prints.
+std::string short_help(const Tool& tool) {
+  std::string text = "usage: " + tool.name + " " + tool.usage + "\n" + wrapped("", 0, tool.about) + "\n";
+  for (const auto& example : tool.examples) text += "  " + example + "\n";
+  std::string names;
+  for (const Topic& topic : tool.topics) names += " " + topic.name;
+  return text + "\n" + wrapped(tool.name + " --help TOPIC:", 2, names) + tool.name + " --help: all options\n";
+}
+
+std::string topic_text(const Topic& topic) {
+  std::string text = "\n" + wrapped(topic.name + ":", 2, topic.about);
+  for (const auto& example : topic.examples) text += "  " + example + "\n";
+  for (const Option& option : topic.options) {
+    const auto comma = option.name.find(',');
+    const std::string letter = comma == std::string::npos ? "" : "-" + option.name.substr(comma + 1) + ", ";
+    text +=
+        wrapped("  " + letter + "--" + option.name.substr(0, comma) + " " + option.value, 27, option.meaning);
+  }
+  return text;
+}
+
+void print_help(const Tool& tool, const CommandLine& line) {
+  const auto& words = line.arguments;
+  if (words.size() > 1) throw UsageError("--help takes one topic, not also `" + words[1] + "`");
+  std::vector<std::string> names;
+  for (const Topic& topic : tool.topics) {
+    names.push_back(topic.name);
+    if (!words.empty() && words[0] == topic.name) {
+      std::cout << topic_text(topic).substr(1);
+      return;
+    }
+  }
+  if (!words.empty())
+    throw UsageError("--help has no topic `" + words[0] + "`" + suggestion(words[0], names));
+  if (line.options.count("json") > 0) {
+    std::cout << nlohmann::json(tool).dump(2) << '\n';
+    return;
+  }
+  std::cout << short_help(tool);
+  for (const Topic& topic : tool.topics) std::cout << topic_text(topic);
+  std::cout << '\n' << tool.remarks;
 }
 
 int answer(Tool& tool, int argc, const char* const* argv,
            const std::function<int(const CommandLine&)>& body) {
-  tool.options.add_options()("version", "print the version")("help", "print this");
+  tool.topics.push_back({"general",
+                         "what every tool knows",
+                         {},
+                         {{"help,h", "", "print all options; behind it a topic; with --json for programs"},
+                          {"version,V", "", "print version and commit; with --json all of the build"},
+                          {"json", "", "print one JSON object in the place of text"}}});
   if (argc < 2) {
-    std::cerr << tool;
+    std::cerr << short_help(tool);
     return usage;
   }
-  const CommandLine line = read_command_line(argc, argv, tool.options);
-  if (!tool.takes_arguments && !line.arguments.empty())
-    throw UsageError("`" + line.arguments.front() + "` is not an option");
+  const CommandLine line = read_command_line(argc, argv, tool);
   if (line.options.count("help") > 0) {
-    std::cout << tool;
+    print_help(tool, line);
     return success;
   }
+  if (!tool.takes_arguments && !line.arguments.empty())
+    throw UsageError("`" + line.arguments.front() + "` is not an option");
   if (line.options.count("version") > 0) {
-    std::cout << tool.name << ' ' << build_info().version << '\n';
+    if (line.options.count("json") > 0)
+      std::cout << nlohmann::json(build_info()).dump(2) << '\n';
+    else
+      std::cout << tool.name << ' ' << build_info().version << " (" << build_info().commit << ")\n";
     return success;
   }
   return body(line);
@@ -142,4 +211,5 @@ int run_tool(Tool tool, int argc, const char* const* argv,
   }
 }
 
-}  // namespace hompm::cli
+}  // namespace cli
+}  // namespace hompm

@@ -51,12 +51,29 @@ void warn(const std::string& message);
 /// "; did you mean <nearest>?", or nothing when no candidate is near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
-/// A tool as its --help tells it; --version and --help come with every one.
+/// An option of a command line.
+struct Option {
+  std::string name;   ///< without dashes; "help,h" has a letter, too
+  std::string value;  ///< what stands behind it; "" for a switch; with "..." it may be given more than once
+  std::string meaning;
+};
+
+/// Options about one thing.
+struct Topic {
+  std::string name;   ///< as in `--help accuracy`
+  std::string about;  ///< one line
+  std::vector<std::string> examples;
+  std::vector<Option> options;
+};
+
+/// A tool as its --help tells it; the topic "general" (--help, --version, --json) comes with every one.
 struct Tool {
   std::string name;
-  std::string synopsis;  ///< "usage: …" and what the tool does, before the list of options
-  boost::program_options::options_description options;
-  std::string remarks;           ///< behind the list: exit codes
+  std::string usage;  ///< behind the name; with what follows no more than 12 lines without arguments
+  std::string about;
+  std::vector<std::string> examples;
+  std::vector<Topic> topics;
+  std::string remarks;           ///< behind all options: exit codes
   bool takes_arguments = false;  ///< beside options
 };
 

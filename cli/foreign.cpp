@@ -6,7 +6,6 @@
 #include <hompm/verify/foreign_comparison.hpp>
 
 #include "bounds.hpp"
-#include "common.hpp"
 #include "foreign_picture.hpp"
 #include "foreign_text.hpp"
 
@@ -37,27 +36,18 @@ ForeignOptions read_options(const po::variables_map& given) {
 
 }  // namespace
 
-po::options_description foreign_options() {
-  po::options_description all("Options when A is a CSV file of another code");
-  const auto words = [](const char* name) { return po::value<Words>()->value_name(name)->composing(); };
-  all.add_options()  //
-      ("exact", words("FIELD=T"),
-       "FIELD may differ from the exact solution by T times its largest value in B")  //
-      ("time", words("T"), "compare only time T of B, in s")                          //
-      ("interpolate", "compute times that A lacks from those around them")            //
-      ("picture", po::value<std::string>()->value_name("FILE"),
-       "draw A, B and exact solution: .svg or .png, by gnuplot");
-  return all;
+std::vector<Option> foreign_options() {
+  return {
+      {"exact", "FIELD=T...", "FIELD may differ from the exact solution by T times its largest value in B"},
+      {"time", "T...", "compare only time T of B, in s"},
+      {"interpolate", "", "compute times that A lacks from those around them"},
+      {"picture", "FILE", "draw A, B and exact solution: .svg or .png, by gnuplot"}};
 }
 
 void refuse_foreign_options(const po::variables_map& given) {
-  const auto all = foreign_options();
-  for (const auto& option : all.options()) {
-    if (given.count(option->long_name()) > 0) {
-      throw UsageError("--" + option->long_name() +
-                       " goes with a CSV file in the place of A, which is a folder");
-    }
-  }
+  for (const Option& option : foreign_options())
+    if (given.count(option.name) > 0)
+      throw UsageError("--" + option.name + " goes with a CSV file in the place of A, which is a folder");
 }
 
 int compare_csv(const po::variables_map& given, const std::string& csv, const std::string& folder) {

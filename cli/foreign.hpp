@@ -6,10 +6,12 @@
 
 #include <boost/program_options.hpp>
 
+#include "common.hpp"
+
 namespace hompm::cli {
 
 /// The options that only go with a CSV file.
-boost::program_options::options_description foreign_options();
+std::vector<Option> foreign_options();
 
 /// Throws `UsageError` when an option is given that only goes with a CSV file.
 void refuse_foreign_options(const boost::program_options::variables_map& given);

@@ -1,13 +1,5 @@
 // hompm-diff: exact comparison of two run folders, and comparison of another code's results with one.
 //
-// Sample runs:
-//   hompm-diff run golden/bar-large
-//   hompm-diff --ulps all=4 run golden/bar-large
-//   hompm-diff --relative stress=1e-9 --absolute displacement=1e-12 run golden/bar-large
-//   hompm-diff --json run golden/bar-large
-//   hompm-diff --relative all=1e-2 theirs.csv golden/bar-large
-//   hompm-diff --trace mine.trace theirs.trace
-//
 // Description:
 //   Compares particles.csv, stress.csv and history.csv of folder A with those of folder B, bit for bit, and
 //   scene.toml as text. Tolerances have to be asked for, field by field or for `all` of them. Says where the
@@ -35,36 +27,41 @@ namespace po = boost::program_options;
 
 using Words = std::vector<std::string>;
 
-po::options_description options() {
-  po::options_description all("Options");
-  const auto words = [](const char* name) { return po::value<Words>()->value_name(name)->composing(); };
-  all.add_options()                                                                                //
-      ("absolute", words("FIELD=T"), "values of FIELD may differ by T, in the unit of the field")  //
-      ("relative", words("FIELD=T"), "… by T times the largest value of FIELD at that time in B")  //
-      ("ulps", words("FIELD=N"), "… by N units in the last place")                                 //
-      ("trace", "A and B are files of hompm-run --trace: say where the runs part first")           //
-      ("json", "print one JSON object")                                                            //
-      ("quiet", "print nothing; only the exit code tells");
-  return all.add(hompm::cli::foreign_options());
-}
-
 hompm::cli::Tool this_tool() {
   return {
       .name = "hompm-diff",
-      .synopsis =
-          "usage: hompm-diff [options] A B\n\n"
-          "Compares the results in the folder A with those in the folder B (the golden one) bit for bit;\n"
-          "or the results of another code in the CSV file A with those in B and with the exact solution:\n\n"
-          "  hompm-diff --relative all=1e-2 --picture mine.svg mine.csv golden/bar-small-bspline\n",
-      .options = options(),
+      .usage = "[options] A B",
+      .about =
+          "Compares the results in the folder A with those in the golden folder B, bit for bit; "
+          "or those of another code in the CSV file A with those in B and the exact solution.",
+      .examples = {"hompm-diff out golden/bar-large-bspline",
+                   "hompm-diff --relative all=1e-2 mine.csv golden/bar-small-bspline"},
+      .topics = {{"bounds",
+                  "what may differ; FIELD is a column of a CSV file, or `all`: every field without a bound "
+                  "of its own",
+                  {"hompm-diff --relative stress=1e-9 out golden/bar-large-bspline",
+                   "hompm-diff --ulps all=4 out golden/bar-large-bspline"},
+                  {{"absolute", "FIELD=T...", "values of FIELD may differ by T, in its unit"},
+                   {"relative", "FIELD=T...", "… by T times the largest value of FIELD at that time in B"},
+                   {"ulps", "FIELD=N...", "… by N units in the last place"}}},
+                 {"csv",
+                  "when A is a CSV file of another code",
+                  {"hompm-diff --exact all=2e-2 --time 2.5 mine.csv golden/bar-small-bspline",
+                   "hompm-diff --picture mine.svg mine.csv golden/bar-small-bspline"},
+                  hompm::cli::foreign_options()},
+                 {"traces",
+                  "where two runs part",
+                  {"hompm-diff --trace mine.trace theirs.trace"},
+                  {{"trace", "", "A and B are files of hompm-run --trace: say where the runs part"}}},
+                 {"outputs", "what is printed", {}, {{"quiet", "", "nothing; only the exit code tells"}}}},
       .remarks =
-          "FIELD is a column of particles.csv, stress.csv or history.csv, or `all`, which goes for\n"
-          "every field that is not named in another bound of the same kind. A value passes when it\n"
-          "meets any of its bounds. Without bounds a single bit makes the two different.\n\n"
-          "A CSV file needs the columns X, time and one of x, displacement, velocity, volume, density,\n"
-          "stress, stretch, in any order; others are let pass. Particles are matched by X. Largest\n"
-          "values are then those of all times, and only fields with a bound are judged, if any has one.\n\n"
-          "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read or write.\n",
+          "A value passes when it meets any of its bounds. Without bounds a single bit\n"
+          "makes the two different. A CSV file needs the columns X, time and one of x,\n"
+          "displacement, velocity, volume, density, stress, stretch, in any order; others\n"
+          "are let pass. Particles are matched by X. Largest values are then those of all\n"
+          "times, and only fields with a bound are judged, if any has one.\n\n"
+          "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read\n"
+          "or write.\n",
       .takes_arguments = true};
 }
 

@@ -1,14 +1,8 @@
 // hompm-run: runs one scene and says how good the result is.
 //
-// Sample runs:   hompm-run --case column
-//                hompm-run --case bar --variant large --scheme bspline --cells 128
-//                hompm-run --scene my.toml --set material.youngs_modulus=2e5 --output out
-//                hompm-run --check golden/column-large-tielen2017
-//
-// Description:   Reads a scene (built in, or a file), applies what the command line says about it, runs it,
-// writes the
-//                output folder, and prints errors against the reference solution and the balances. With
-//                --check the scene of a golden folder is run and the result compared with it.
+// Reads a scene (built in, or a file), applies what the command line says about it, runs it, writes the
+// output folder, and prints errors against the reference solution and the balances. With --check the scene of
+// a golden folder is run and the result compared with it. Sample runs: below, in the topics of --help.
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -33,7 +27,6 @@
 
 #include "common.hpp"
 #include "comparison_text.hpp"
-#include "key_reference.hpp"
 #include "listing.hpp"
 #include "progress.hpp"
 #include "scene_choice.hpp"
@@ -44,46 +37,59 @@ using hompm::cli::UsageError;
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
-po::options_description make_options() {
-  po::options_description options("options");
-  const auto text = [](const char* name) { return po::value<std::string>()->value_name(name); };
-  options.add_options()("case", text("NAME"), "built-in case: bar, column")(
-      "scene", text("FILE"), "scene file instead of a case")("variant", text("NAME"), "variant of the case")(
-      "scheme", text("NAME"), "scheme.name; the scheme's own degree unless --degree is given")(
-      "degree", text("P"), "scheme.degree")("cells", text("N"), "scheme.cells, over the length of the body")(
-      "particles-per-cell", text("K"), "scheme.particles_per_cell")(
-      "time-step", text("S"), "scheme.time_step, s")("courant", text("C"), "scheme.courant, c dt/h")(
-      "step-fraction", text("R"), "scheme.step_fraction, time step over the critical one")(
-      "end-time", text("S"), "end_time, s")(
-      "set", po::value<std::vector<std::string>>()->composing()->value_name("KEY=VALUE"),
-      "set any key of the scene")("snapshots", text("N"), "output.snapshots, after the start")(
-      "output", text("DIR"), "output folder (default hompm-out/CASE-VARIANT-SCHEME)")(
-      "no-vtk", "write no vtk files")("check", text("DIR"),
-                                      "compare with a golden folder; its scene is run when none is named")(
-      "explain", "print the stages of a step and what called for each, and run nothing")(
-      "critical-step", "print the largest stable time step, and run nothing")(
-      "json", "print run.json instead of the summary")("quiet", "print nothing but errors")(
-      "checkpoint", text("EVERY"), "write checkpoint.hompm into the output folder every EVERY steps")(
-      "resume", text("FILE"), "go on from a checkpoint, in its folder unless --output is given")(
-      "trace", text("FILE"), "write a hash of every field after every stage, for hompm-diff --trace")(
-      "trace-values", text("STEP"), "with --trace: write all values from step STEP on (default 0), too")(
-      "list", "list cases, schemes, materials and effects")(
-      "keys", "print every key of a scene: unit, range, default, meaning; with --json for programs");
-  return options;
-}
-
 hompm::cli::Tool this_tool() {
-  return {.name = "hompm-run",
-          .synopsis =
-              "usage: hompm-run --case NAME [options]\n"
-              "       hompm-run --scene FILE [options]\n"
-              "       hompm-run --check GOLDEN [options]\n"
-              "       hompm-run --resume CHECKPOINT [options]\n\n"
-              "Runs a scene by the material point method and says how good the result is.\n",
-          .options = make_options(),
-          .remarks =
-              "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became invalid,\n"
-              "5 cannot read or write, 6 this build or process does not compute as IEEE 754 says.\n"};
+  return {
+      .name = "hompm-run",
+      .usage = "--case NAME | --scene FILE | --check DIR | --resume FILE [options]",
+      .about = "Runs a scene by the material point method and says how good the result is.",
+      .examples = {"hompm-run --case column", "hompm-run --case bar --scheme bspline --cells 128",
+                   "hompm-run --scene my.toml --set material.youngs_modulus=2e5 --output out"},
+      .topics =
+          {{"scenes",
+            "what is simulated",
+            {"hompm-run --case column --variant settled", "hompm-run --scene my.toml --end-time 2"},
+            {{"case", "NAME", "built-in case: bar, column"},
+             {"variant", "NAME", "variant of the case"},
+             {"scene", "FILE", "scene file instead of a case"},
+             {"set", "KEY=VALUE...", "set any key of the scene"},
+             {"end-time", "S", "end_time, s"},
+             {"list", "", "print cases, schemes, materials and effects"},
+             {"keys", "", "print every key of a scene: unit, range, default, meaning"}}},
+           {"accuracy",
+            "how it is discretised; hompm-study says which setting is the cheapest for an error",
+            {"hompm-run --case bar --scheme high-order --degree 4 --cells 32",
+             "hompm-run --case column --step-fraction 0.9"},
+            {{"scheme", "NAME", "scheme.name; the scheme's own degree unless --degree is given"},
+             {"degree", "P", "scheme.degree"},
+             {"cells", "N", "scheme.cells, over the length of the body"},
+             {"particles-per-cell", "K", "scheme.particles_per_cell"},
+             {"time-step", "S", "scheme.time_step, s"},
+             {"courant", "C", "scheme.courant, c dt/h"},
+             {"step-fraction", "R", "scheme.step_fraction, time step over the critical one"},
+             {"critical-step", "", "print the critical time step, and run nothing"},
+             {"explain", "", "print the stages of a step and what called for each, and run nothing"}}},
+           {"outputs",
+            "what is written and printed",
+            {"hompm-run --case bar --output out --snapshots 50", "hompm-run --case bar --json"},
+            {{"output", "DIR", "output folder (default hompm-out/CASE-VARIANT-SCHEME)"},
+             {"snapshots", "N", "output.snapshots, after the start"},
+             {"no-vtk", "", "write no vtk files"},
+             {"quiet", "", "print nothing but errors"}}},
+           {"comparison",
+            "with golden data, or of two builds stage by stage",
+            {"hompm-run --check golden/bar-large-bspline", "hompm-run --case column --trace mine.trace"},
+            {{"check", "DIR", "compare with a golden folder; its scene is run when none is named"},
+             {"trace", "FILE", "write a hash of every field after every stage, for hompm-diff --trace"},
+             {"trace-values", "STEP", "with --trace: write all values from step STEP (default 0) on, too"}}},
+           {"restart",
+            "of a run that was stopped",
+            {"hompm-run --case bar --checkpoint 1000 --output out", "hompm-run --resume out"},
+            {{"checkpoint", "EVERY", "write checkpoint.hompm into the output folder every EVERY steps"},
+             {"resume", "FILE", "go on from a checkpoint, in its folder unless --output is given"}}}},
+      .remarks =
+          "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became\n"
+          "invalid, 5 cannot read or write, 6 this build or process does not compute as\n"
+          "IEEE 754 says.\n"};
 }
 
 fs::path output_folder(const po::variables_map& given, const hompm::Scene& scene) {
@@ -131,15 +137,15 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
               std::optional<hompm::Checkpoint> from) {
   const bool quiet = given.count("quiet") > 0;
   const bool resumed = from.has_value();
+  const auto form = given.count("json") > 0 ? hompm::cli::Form::json : hompm::cli::Form::text;
   if (given.count("critical-step")) {
-    for (const hompm::Scene* body : hompm::bodies_of(scene))
-      std::cout << hompm::cli::critical_step_text(*body);
+    std::cout << hompm::cli::critical_steps(scene, form);
     return hompm::cli::success;
   }
   const hompm::TimeStepping stepping = hompm::time_stepping(scene);
   const hompm::Checkpoint begin = starting_point(scene, given, std::move(from));
   if (given.count("explain")) {
-    std::cout << hompm::cli::plan_text(scene, stepping);
+    std::cout << hompm::cli::explanation(scene, stepping, form);
     return hompm::cli::success;
   }
   if (const std::string caution = hompm::caution(scene); !quiet && !caution.empty())
@@ -204,12 +210,9 @@ int run_scene(const hompm::Scene& scene, const po::variables_map& given,
 }
 
 int run(const po::variables_map& given) {
-  if (given.count("list")) {
-    std::cout << hompm::cli::catalogue_text();
-    return hompm::cli::success;
-  }
-  if (given.count("keys")) {
-    std::cout << (given.count("json") ? hompm::cli::key_json() : hompm::cli::key_text());
+  if (given.count("list") || given.count("keys")) {
+    const auto form = given.count("json") > 0 ? hompm::cli::Form::json : hompm::cli::Form::text;
+    std::cout << (given.count("list") ? hompm::cli::catalogue(form) : hompm::cli::key_reference(form));
     return hompm::cli::success;
   }
   std::optional<hompm::Checkpoint> from;

@@ -1,10 +1,5 @@
 // hompm-study: what accuracy costs.
 //
-// Sample runs:   hompm-study --case bar
-//                hompm-study --case bar --vary scheme,cells --vary courant=0.2,0.1 --output bar
-//                hompm-study --study my-study.toml --jobs 4
-//                hompm-study --case bar --advise --error 1e-4
-//
 // Description:   Runs one scene with many settings, judges every run by the reference solution, counts what
 // it
 //                costs, and says which setting is the cheapest for an error. A study is a list of independent
@@ -15,6 +10,7 @@
 #include <thread>
 
 #include <boost/program_options.hpp>
+#include <nlohmann/json.hpp>
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/floating_point.hpp>
@@ -34,39 +30,49 @@ using hompm::cli::UsageError;
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 namespace study = hompm::study;
-
-po::options_description make_options() {
-  po::options_description options("options");
-  const auto text = [](const char* name) { return po::value<std::string>()->value_name(name); };
-  const auto texts = [](const char* name) {
-    return po::value<std::vector<std::string>>()->composing()->value_name(name);
-  };
-  options.add_options()("case", text("NAME"), "built-in case: bar, column")(
-      "variant", text("NAME"), "variant of the case")("scene", text("FILE"), "scene file instead of a case")(
-      "study", text("FILE"), "study file instead of either")(
-      "vary", texts("KEYS"), "keys to vary: scheme,degree,cells or cells=8,16,32; every combination is run")(
-      "set", texts("KEY=VALUE"), "set any key of the scene in every point")(
-      "output", text("DIR"), "output folder (default hompm-out/study-CASE-VARIANT)")(
-      "jobs", text("N"), "points at a time (default: one per processor)")(
-      "repeats", text("N"), "wall-clock times per point (default 5; 0 for none)")(
-      "no-instructions", "count no instructions")("advise", "print the setting to use for --error, no more")(
-      "error", text("E"), "relative L2 error that is wanted")(
-      "field", text("NAME"), "of displacement (default), velocity or stress")(
-      "list", "print the names of the points")("point", text("NAME"), "run this point only")(
-      "times", "only take times of the points that were run")("gather", "only make tables and pictures anew")(
-      "count", text("DIR"), "step from the states in DIR: what --point runs under callgrind")(
-      "quiet", "print nothing but errors");
-  return options;
-}
+using Json = nlohmann::ordered_json;
 
 hompm::cli::Tool this_tool() {
   return {.name = "hompm-study",
-          .synopsis =
-              "usage: hompm-study --case NAME [options]\n"
-              "       hompm-study --scene FILE [options]\n"
-              "       hompm-study --study FILE [options]\n\n"
-              "Runs a scene with many settings and says which is the cheapest for an error.\n",
-          .options = make_options(),
+          .usage = "--case NAME | --scene FILE | --study FILE [options]",
+          .about = "Runs a scene with many settings and says which is the cheapest for an error.",
+          .examples = {"hompm-study --case bar", "hompm-study --study my-study.toml --jobs 4",
+                       "hompm-study --case bar --vary scheme,cells --vary courant=0.2,0.1"},
+          .topics = {{"points",
+                      "what is run",
+                      {"hompm-study --case column --set end_time=0.5 --vary scheme,cells=8,16"},
+                      {{"case", "NAME", "built-in case: bar, column"},
+                       {"variant", "NAME", "variant of the case"},
+                       {"scene", "FILE", "scene file instead of a case"},
+                       {"study", "FILE", "study file instead of either"},
+                       {"vary", "KEYS...",
+                        "keys to vary: scheme,degree,cells or cells=8,16,32; every combination is run"},
+                       {"set", "KEY=VALUE...", "set any key of the scene in every point"}}},
+                     {"accuracy",
+                      "which setting to use",
+                      {"hompm-study --case bar --advise --error 1e-4"},
+                      {{"advise", "", "print the setting to use for --error, no more"},
+                       {"error", "E", "relative L2 error that is wanted"},
+                       {"field", "NAME", "of displacement (default), velocity or stress"}}},
+                     {"cost",
+                      "how it is measured",
+                      {},
+                      {{"repeats", "N", "wall-clock times per point (default 5; 0 for none)"},
+                       {"no-instructions", "", "count no instructions"},
+                       {"jobs", "N", "points at a time (default: one per processor)"}}},
+                     {"parts",
+                      "of a study, for a workflow engine",
+                      {"hompm-study --study my-study.toml --list"},
+                      {{"list", "", "print the names of the points"},
+                       {"point", "NAME", "run this point only"},
+                       {"times", "", "only take times of the points that were run"},
+                       {"gather", "", "only make tables and pictures anew"},
+                       {"count", "DIR", "step from the states in DIR: what --point runs under callgrind"}}},
+                     {"outputs",
+                      "what is written and printed",
+                      {},
+                      {{"output", "DIR", "output folder (default hompm-out/study-CASE-VARIANT)"},
+                       {"quiet", "", "print nothing but errors"}}}},
           .remarks =
               "Exit codes: 0 fine, 2 bad usage, scene or study, 4 no setting reaches the error,\n"
               "5 cannot read or write, 130 interrupted: the same command goes on.\n"};
@@ -162,15 +168,18 @@ const study::Point& point_called(const StudyJob& job, const std::string& name) {
   throw UsageError("the study has no point " + name + hompm::cli::suggestion(name, names));
 }
 
-int advise(const StudyJob& job, study::Field field, double error) {
+int advise(const StudyJob& job, study::Field field, double error, bool json) {
   auto gathered = hompm::cli::gathered(job);
   const study::Cost cost = study::steady_cost(gathered);
   const study::Choice choice = study::choice_of(gathered, field, cost);
-  std::cout << study::answer(gathered, field, cost, error) << "\n";
+  const std::string answer = study::answer(gathered, field, cost, error);
   const auto best = study::cheapest(choice.candidates, error);
-  if (!best) return hompm::cli::invalid_run;
-  std::cout << study::command_text(job.study, *choice.outcomes[*best]) << "\n";
-  return hompm::cli::success;
+  const std::string command = best ? study::command_text(job.study, *choice.outcomes[*best]) : "";
+  if (json)
+    std::cout << Json{{"answer", answer}, {"command", best ? Json(command) : Json()}}.dump(2) << '\n';
+  else
+    std::cout << answer << "\n" << command << (best ? "\n" : "");
+  return best ? hompm::cli::success : hompm::cli::invalid_run;
 }
 
 int run_study(const StudyJob& job, const po::variables_map& given) {
@@ -193,7 +202,7 @@ int run_study(const StudyJob& job, const po::variables_map& given) {
               << " points run; the same command goes on from there\n";
     return hompm::cli::interrupted;
   }
-  if (advice) return advise(job, field, error);
+  if (advice) return advise(job, field, error, given.count("json") > 0);
   write_study_files(job);
   return success;
 }
@@ -210,7 +219,12 @@ int run(const po::variables_map& given) {
   job.instructions = !given.count("no-instructions");
   job.quiet = given.count("quiet") > 0;
   if (given.count("list")) {
-    for (const study::Point& point : job.points) std::cout << point.name << '\n';
+    Json names = Json::array();
+    for (const study::Point& point : job.points) names.push_back(point.name);
+    if (given.count("json") > 0)
+      std::cout << Json{{"points", names}}.dump(2) << '\n';
+    else
+      for (const study::Point& point : job.points) std::cout << point.name << '\n';
     return hompm::cli::success;
   }
   hompm::numerics::check_floating_point();

@@ -3,166 +3,315 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
 #include <hompm/plan/state_fields.hpp>
+#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/recorder/trace_format.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>
 #include <hompm/simulation/simulation.hpp>
 
-namespace hompm::cli {
+#include "text_table.hpp"
+
+namespace hompm {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Scheme, name, summary, source, lowest_degree, highest_degree,
+                                   default_degree)
+
+namespace cli {
 namespace {
 
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(text.size() + 1, width), ' ');
-  return text;
+using Json = nlohmann::ordered_json;
+
+/// A member that is a text.
+const std::string& text_of(const Json& object, const char* member) {
+  return object[member].get_ref<const std::string&>();
+}
+
+std::string joined(const Json& words) {
+  std::string text;
+  for (const Json& word : words) text += (text.empty() ? "" : ", ") + word.get<std::string>();
+  return text.empty() ? "none" : text;
+}
+
+// --keys and --list
+
+Json json(const SceneKey& key) {
+  return {{"path", key.path},         {"type", key.type},
+          {"unit", key.unit},         {"range", key.range},
+          {"words", key.words},       {"condition", key.condition},
+          {"required", key.required}, {"optional_table", key.optional_table},
+          {"default", key.standard},  {"meaning", key.meaning}};
+}
+
+Json all_effects() {
+  Json effects = Json::array();
+  for (const EffectType& effect : effect_catalogue()) {
+    Json parameters = Json::array();
+    for (const SceneKey& key : parameter_keys(effect)) parameters.push_back(json(key));
+    effects.push_back({{"name", effect.name}, {"meaning", effect.meaning}, {"parameters", parameters}});
+  }
+  return effects;
+}
+
+std::string values(const SceneKey& key) {
+  std::string text = key.type == "integer" ? "whole number" : key.type;
+  if (key.type == "word" || key.type == "boolean")
+    text = key.range;
+  else if (!key.range.empty())
+    text += ", " + key.range;
+  return key.condition.empty() ? text : text + " (" + key.condition + ")";
+}
+
+std::string standard(const SceneKey& key) {
+  if (key.required)
+    return "; must be given" + (key.optional_table.empty() ? "" : " where [" + key.optional_table + "] is");
+  return key.standard.empty() ? "" : "; default: " + key.standard;
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return name + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+std::string key_text(const SceneKey& key, std::size_t indent) {
+  return wrapped("", indent, with_unit(key.path, key.unit) + ": " + values(key) + standard(key)) +
+         wrapped("", indent + 4, key.meaning);
 }
 
 std::string degrees(const Scheme& scheme) {
-  if (scheme.lowest_degree == scheme.highest_degree) return "degree " + std::to_string(scheme.lowest_degree);
-  return "degree " + std::to_string(scheme.lowest_degree) + " to " + std::to_string(scheme.highest_degree) +
-         ", default " + std::to_string(scheme.default_degree);
+  const std::string lowest = "degree " + std::to_string(scheme.lowest_degree);
+  return scheme.lowest_degree == scheme.highest_degree
+             ? lowest
+             : lowest + " to " + std::to_string(scheme.highest_degree) + ", default " +
+                   std::to_string(scheme.default_degree);
 }
 
-std::string effects_left_out(const hompm::Scene& scene) {
-  std::string names;
-  for (const auto& type : hompm::effects_of(scene)) {
-    const auto is_present = [&](const hompm::EffectSpec& spec) { return spec.type == type.name; };
-    if (std::none_of(scene.effects.begin(), scene.effects.end(), is_present))
-      names += (names.empty() ? "" : ", ") + type.name;
+Json catalogue_json() {
+  Json all{{"formats", {{"checkpoint", checkpoint_format}, {"trace", detail::trace_format}}}};
+  for (const auto& scene : builtin_scenes())
+    all["cases"].push_back(
+        {{"case", scene.case_name}, {"variant", scene.variant}, {"default", scene.is_default}});
+  all["schemes"] = nlohmann::json(scheme_table());
+  for (const auto& [name, formula] : material_laws())
+    all["materials"].push_back({{"name", name}, {"formula", formula}});
+  all["effects"] = all_effects();
+  return all;
+}
+
+// --explain
+
+constexpr std::array<std::pair<Phase, const char*>, static_cast<std::size_t>(Phase::count_)> phases{
+    {{Phase::geometry, "geometry"},
+     {Phase::end_stress, "stress at the ends"},
+     {Phase::internal_force, "internal force"},
+     {Phase::external_force, "external force"},
+     {Phase::damping_force, "damping force"},
+     {Phase::acceleration, "acceleration"},
+     {Phase::velocity, "velocity"},
+     {Phase::transfer, "transfer"},
+     {Phase::constraint, "constraint"},
+     {Phase::work, "work"},
+     {Phase::motion, "motion"}}};
+
+Json effects_left_out(const Scene& scene) {
+  Json names = Json::array();
+  for (const auto& type : effects_of(scene)) {
+    const auto is_present = [&](const EffectSpec& spec) { return spec.type == type.name; };
+    if (std::none_of(scene.effects.begin(), scene.effects.end(), is_present)) names.push_back(type.name);
   }
-  return names.empty() ? "none" : names;
+  return names;
 }
 
-}  // namespace
+Json stages_of(const Plan& plan) {
+  Json stages = Json::array();
+  for (const auto& [phase, title] : phases)
+    for (const Stage& stage : plan[phase])
+      stages.push_back(
+          {{"phase", title}, {"name", stage.name}, {"for", stage.called_by}, {"owns", stage.arrays}});
+  return stages;
+}
 
-std::string catalogue_text() {
-  std::string text = "cases (--case, --variant)\n";
-  for (const auto& scene : hompm::builtin_scenes())
-    text += "  " + padded(scene.case_name, 10) + padded(scene.variant, 12) +
-            (scene.is_default ? "default\n" : "\n");
-  text += "\nschemes (--scheme)\n";
-  for (const auto& scheme : hompm::scheme_table())
-    text += "  " + padded(scheme.name, 18) + scheme.summary + "; " + degrees(scheme) + "\n" + padded("", 20) +
-            scheme.source + "\n";
-  text += "\nmaterials (material.law)\n";
-  for (const auto& [name, formula] : hompm::material_laws()) text += "  " + padded(name, 14) + formula + "\n";
-  text += "\neffects ([[effect]] type)\n";
-  for (const auto& type : hompm::effect_catalogue()) {
-    text += "  " + padded(type.name, 16) + type.meaning + "\n";
-    for (const auto& parameter : type.parameters)
-      text += padded("", 18) +
-              padded(parameter.name + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]"), 24) +
-              parameter.meaning + "\n";
+/// The arrays that the stages of a body work on: those of its state that are there.
+Json arrays_of(const State& state) {
+  Json arrays{{"particle", Json::array()},
+              {"particle and function there", Json::array()},
+              {"grid function", Json::array()}};
+  visit_fields(state, [&](std::string_view name, Site site, const auto&) {
+    const bool own = name.starts_with("basis.");  // the others have their title in common
+    const char* const title = site == Site::particle            ? "particle"
+                              : site == Site::particle_function ? "particle and function there"
+                                                                : "grid function";
+    if (site == Site::particle || site == Site::particle_function || site == Site::function)
+      arrays[title].push_back(std::string(own ? name : name.substr(name.find('.') + 1)));
+  });
+  return arrays;
+}
+
+Json couplings_of(const Simulation& simulation) {
+  Json couplings = Json::array();
+  for (const auto& [phase, title] : phases)
+    for (const Coupling& coupling : simulation.couplings())
+      if (coupling.phase == phase)
+        couplings.push_back({{"phase", title},
+                             {"name", coupling.name},
+                             {"for", coupling.called_by},
+                             {"bodies", {coupling.left, coupling.left + 1}}});
+  return couplings;
+}
+
+/// "scheme tielen2017 (my.toml:3:1)" is said in short where it calls, and in full once.
+std::string caller(const Json& stage, std::vector<std::string>& callers) {
+  const std::string& full = text_of(stage, "for");
+  if (std::ranges::find(callers, full) == callers.end()) callers.push_back(full);
+  return full.substr(0, full.find(" ("));
+}
+
+std::string explanation_text(const Json& all) {
+  std::string text = std::to_string(all["steps"].get<std::int64_t>()) + " steps of " +
+                     to_text(all["time_step"].get<double>()) + " s; critical step " +
+                     to_text(all["critical_time_step"].get<double>()) + " s\n";
+  std::vector<std::string> callers;
+  const Json& bodies = all["bodies"];
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (bodies.size() > 1) text += "body " + std::to_string(body) + "\n";
+    std::string phase;
+    int number = 0;
+    for (const Json& stage : bodies[body]["stages"]) {
+      if (phase != text_of(stage, "phase")) {
+        phase = text_of(stage, "phase");
+        const bool once = phase == "geometry" && !bodies[body]["moves"].get<bool>();
+        text += phase + (once ? " (once: nothing moves)\n" : "\n");
+      }
+      const std::string head = padded("  " + std::to_string(++number) + ".", 6) + text_of(stage, "name");
+      text += padded(head, 52) + "for " + caller(stage, callers) + "\n";
+      if (!text_of(stage, "owns").empty()) text += wrapped("", 8, "owns, " + text_of(stage, "owns"));
+    }
+    text += "arrays of the state\n";
+    for (const auto& [site, names] : bodies[body]["arrays"].items())
+      text += wrapped("  per " + site + ":", 6, joined(names));
   }
-  return text;
+  if (!all["couplings"].empty()) text += "between bodies\n";
+  for (const Json& coupling : all["couplings"])
+    text += padded("  " + text_of(coupling, "name"), 52) + "for " + caller(coupling, callers) + "\n" +
+            wrapped("", 8,
+                    "of bodies " + coupling["bodies"][0].dump() + " and " + coupling["bodies"][1].dump() +
+                        ", at the end of the phase " + text_of(coupling, "phase"));
+  text += "called for by\n";
+  for (const std::string& full : callers) text += wrapped("", 2, full);
+  return text + wrapped("effects absent:", 2, joined(all["effects_absent"]));
 }
 
-namespace {
+// --critical-step
 
-using Phases = std::array<std::pair<Phase, std::string>, static_cast<std::size_t>(Phase::count_)>;
-
-Phases phases_of(bool moves) {
-  return {{
-      {Phase::geometry, moves ? "geometry" : "geometry (once: nothing moves)"},
-      {Phase::end_stress, "stress at the ends"},
-      {Phase::internal_force, "internal force"},
-      {Phase::external_force, "external force"},
-      {Phase::damping_force, "damping force"},
-      {Phase::acceleration, "acceleration"},
-      {Phase::velocity, "velocity"},
-      {Phase::transfer, "transfer"},
-      {Phase::constraint, "constraint"},
-      {Phase::work, "work"},
-      {Phase::motion, "motion"},
-  }};
+Json limits_of(const Scene& scene) {
+  const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
+  const double cell = scene.body.length / scene.scheme.cells;
+  Json limits = Json::array();
+  const auto add = [&](const std::string& where, const Json& beyond, double step) {
+    limits.push_back({{"where", where},
+                      {"cells_beyond_breakpoint", beyond},
+                      {"step", step},
+                      {"courant", step * wave_speed / cell}});
+  };
+  const double refused_above = critical_time_step(scene);
+  const State start = Simulation(scene, 1.0).state();
+  CriticalStep critical(scene);
+  add("at the start", nullptr, critical.at(start));
+  if (moving_free_end(scene))
+    for (const double cut : {1e-6, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
+      add("free end " + to_text(cut) + " cells beyond a breakpoint", cut, critical.with_cut(start, cut));
+  add("refused above", nullptr, refused_above);
+  return {{"scheme", scene.scheme.name},
+          {"degree", scene.scheme.degree},
+          {"particles_per_cell", scene.scheme.particles_per_cell},
+          {"limits", limits}};
 }
 
-std::string stages_text(const hompm::Plan& plan, bool moves) {
+std::string critical_steps_text(const Json& bodies) {
   std::string text;
-  int number = 0;
-  for (const auto& [phase, title] : phases_of(moves)) {
-    if (plan[phase].empty()) continue;
-    text += title + "\n";
-    for (const auto& stage : plan[phase]) {
-      text += "  " + padded(std::to_string(++number) + ".", 4) + padded(stage.name, 50) + "for " +
-              stage.called_by + "\n";
-      if (!stage.arrays.empty()) text += padded("", 8) + "owns, " + stage.arrays + "\n";
+  std::array<char, 96> line{};
+  for (const Json& body : bodies) {
+    const std::string head = text_of(body, "scheme") + ", p = " + body["degree"].dump() + ", " +
+                             body["particles_per_cell"].dump() + " particles per cell";
+    std::snprintf(line.data(), line.size(), "%-46s %10s %8s\n", head.c_str(), "step, s", "c dt/h");
+    text += line.data();
+    for (const Json& limit : body["limits"]) {
+      std::snprintf(line.data(), line.size(), "  %-44s %10.4g %8.4f\n", text_of(limit, "where").c_str(),
+                    limit["step"].get<double>(), limit["courant"].get<double>());
+      text += line.data();
     }
   }
   return text;
 }
 
-/// The arrays that the stages of a body work on: those of its state that are there.
-std::string arrays_text(const hompm::State& state) {
-  constexpr std::array<std::pair<hompm::Site, const char*>, 3> kinds{
-      {{hompm::Site::particle, "per particle: "},
-       {hompm::Site::particle_function, "per particle and function there: "},
-       {hompm::Site::function, "per grid function: "}}};
-  std::string text = "arrays of the state\n";
-  for (const auto& [site, title] : kinds) {
-    std::string names;
-    hompm::visit_fields(state, [&, wanted = site](std::string_view name, hompm::Site of, const auto&) {
-      if (of != wanted) return;
-      const bool own = name.starts_with("basis.");  // the others have their title in common
-      names += (names.empty() ? "" : ", ") + std::string(own ? name : name.substr(name.find('.') + 1));
-    });
-    text += "  " + std::string(title) + names + "\n";
-  }
-  return text;
-}
-
-std::string couplings_text(const hompm::Simulation& simulation) {
-  std::string text;
-  for (const auto& [phase, title] : phases_of(true))
-    for (const auto& coupling : simulation.couplings())
-      if (coupling.phase == phase)
-        text += "  " + padded(coupling.name, 54) + "for " + coupling.called_by + "\n" + padded("", 8) +
-                "of bodies " + std::to_string(coupling.left) + " and " + std::to_string(coupling.left + 1) +
-                ", at the end of the phase " + title + "\n";
-  return text.empty() ? "" : "between bodies\n" + text;
-}
-
 }  // namespace
 
-std::string plan_text(const hompm::Scene& scene, const hompm::TimeStepping& stepping) {
-  const hompm::Simulation simulation(scene, stepping.time_step);
-  std::string text = std::to_string(stepping.steps) + " steps of " + hompm::to_text(stepping.time_step) +
-                     " s; critical step " + hompm::to_text(stepping.critical_time_step) + " s\n";
-  for (std::size_t body = 0; body < simulation.bodies(); ++body) {
-    if (simulation.bodies() > 1) text += "body " + std::to_string(body) + "\n";
-    text += stages_text(simulation.plan(body), simulation.state(body).basis_moves);
-    text += arrays_text(simulation.state(body));
+std::string catalogue(Form form) {
+  if (form == Form::json) return catalogue_json().dump(2) + "\n";
+  std::string text = "cases (--case, --variant)\n";
+  for (const auto& scene : builtin_scenes())
+    text += wrapped("  " + scene.case_name, 12, scene.variant + (scene.is_default ? " (default)" : ""));
+  text += "\nschemes (--scheme)\n";
+  for (const auto& scheme : scheme_table())
+    text += wrapped("  " + scheme.name, 20, scheme.summary + "; " + degrees(scheme)) +
+            wrapped("", 20, scheme.source);
+  text += "\nmaterials (material.law)\n";
+  for (const auto& [name, formula] : material_laws()) text += wrapped("  " + name, 16, formula);
+  text += "\neffects ([[effect]] type)\n";
+  for (const auto& effect : effect_catalogue()) {
+    text += wrapped("  " + effect.name, 18, effect.meaning);
+    for (const auto& parameter : effect.parameters)
+      text += wrapped("    " + with_unit(parameter.name, parameter.unit), 28, parameter.meaning);
   }
-  return text + couplings_text(simulation) + "effects absent: " + effects_left_out(scene) + "\n";
-}
-
-std::string critical_step_text(const hompm::Scene& scene) {
-  const double limit = hompm::critical_time_step(scene);
-  const double wave_speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
-  const double cell = scene.body.length / scene.scheme.cells;
-  std::string text;
-  const auto add = [&](const std::string& where, double step) {
-    std::array<char, 96> line{};
-    std::snprintf(line.data(), line.size(), "  %-44s %10.4g %8.4f\n", where.c_str(), step,
-                  step * wave_speed / cell);
-    text += line.data();
-  };
-  text += scene.scheme.name + ", p = " + std::to_string(scene.scheme.degree) + ", " +
-          std::to_string(scene.scheme.particles_per_cell) +
-          " particles per cell                 step, s   c dt/h\n";
-  const hompm::State start = hompm::Simulation(scene, 1.0).state();
-  hompm::CriticalStep critical(scene);
-  add("at the start", critical.at(start));
-  if (moving_free_end(scene))
-    for (const double cut : {1e-6, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
-      add("free end " + to_text(cut) + " cells beyond a breakpoint", critical.with_cut(start, cut));
-  add("refused above", limit);
   return text;
 }
 
-}  // namespace hompm::cli
+std::string key_reference(Form form) {
+  if (form == Form::json) {
+    Json all{{"keys", Json::array()}, {"effects", all_effects()}};
+    for (const SceneKey& key : scene_keys()) all["keys"].push_back(json(key));
+    return all.dump(2) + "\n";
+  }
+  std::string text;
+  for (const SceneKey& key : scene_keys()) text += key_text(key, 0);
+  for (const EffectType& effect : effect_catalogue()) {
+    text += "\n[[effect]] type = \"" + effect.name + "\"\n" + wrapped("", 4, effect.meaning);
+    for (const SceneKey& key : parameter_keys(effect)) text += key_text(key, 2);
+  }
+  return text;
+}
+
+std::string explanation(const Scene& scene, const TimeStepping& stepping, Form form) {
+  const Simulation simulation(scene, stepping.time_step);
+  Json bodies = Json::array();
+  for (std::size_t body = 0; body < simulation.bodies(); ++body)
+    bodies.push_back({{"moves", simulation.state(body).basis_moves},
+                      {"stages", stages_of(simulation.plan(body))},
+                      {"arrays", arrays_of(simulation.state(body))}});
+  const Json all{{"steps", stepping.steps},
+                 {"time_step", stepping.time_step},
+                 {"critical_time_step", stepping.critical_time_step},
+                 {"bodies", bodies},
+                 {"couplings", couplings_of(simulation)},
+                 {"effects_absent", effects_left_out(scene)}};
+  return form == Form::json ? all.dump(2) + "\n" : explanation_text(all);
+}
+
+std::string critical_steps(const Scene& scene, Form form) {
+  Json bodies = Json::array();
+  for (const Scene* body : bodies_of(scene)) bodies.push_back(limits_of(*body));
+  return form == Form::json ? Json{{"bodies", bodies}}.dump(2) + "\n" : critical_steps_text(bodies);
+}
+
+}  // namespace cli
+}  // namespace hompm

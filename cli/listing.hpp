@@ -1,5 +1,4 @@
-// What hompm-run can print without running: the catalogue (--list), the plan of a scene (--explain) and its
-// critical step (--critical-step).
+// What hompm-run can print without running, as text of at most 80 columns or as one JSON object.
 #pragma once
 
 #include <string>
@@ -9,13 +8,21 @@
 
 namespace hompm::cli {
 
-/// Cases with their variants, schemes, materials and effects.
-std::string catalogue_text();
+enum class Form { text, json };
 
-/// The stages of a step in order, what called for each and what it owns, and the effects that are absent.
-std::string plan_text(const Scene& scene, const TimeStepping& stepping);
+/// --list: cases with their variants, schemes, materials, effects; as JSON the formats of files, too.
+std::string catalogue(Form form);
 
-/// The critical step of a scene at the start and, where free ends move, on their way through a cell.
-std::string critical_step_text(const Scene& scene);
+/// --keys: every key a scene may hold and every parameter of an effect, as the reader knows them: unit,
+/// range, default, meaning. As JSON "keys" and "effects", with what is in a `SceneKey`.
+std::string key_reference(Form form);
+
+/// --explain: the stages of a step in order, what called for each and what it owns, the arrays of the state,
+/// and the effects that are absent.
+std::string explanation(const Scene& scene, const TimeStepping& stepping, Form form);
+
+/// --critical-step: the critical step of each body at the start and, where free ends move, on their way
+/// through a cell.
+std::string critical_steps(const Scene& scene, Form form);
 
 }  // namespace hompm::cli

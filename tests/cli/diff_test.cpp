@@ -157,7 +157,7 @@ TEST_CASE("hompm-diff explains itself", "[diff]") {
   const auto nothing = Runs::run("");
   CHECK(nothing.exit_code == 2);
   CHECK(nothing.out.empty());
-  CHECK(nothing.err == help.out);
+  CHECK(help.out.starts_with(nothing.err));
 }
 
 TEST_CASE("hompm-diff refuses a command line it does not understand", "[diff]") {

@@ -14,7 +14,6 @@ using detail::ByteReader;
 using detail::ByteWriter;
 
 constexpr std::string_view magic = "hompm checkpoint";
-constexpr std::uint64_t format = 2;
 constexpr std::size_t head_size = magic.size() + 24;  // magic, format, length, hash
 
 /// The sums of a point, in the order in which they are written; `Any` is a `RunPoint`, const or not.
@@ -127,7 +126,7 @@ std::string checkpoint_bytes(const Checkpoint& checkpoint) {
 
   ByteWriter head;
   head.bytes = magic;
-  head.word(format);
+  head.word(checkpoint_format);
   head.word(rest.bytes.size());
   head.word(detail::hash_of_bytes(rest.bytes));
   return head.bytes + rest.bytes;
@@ -142,8 +141,9 @@ Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source)
     refuse("it is not a checkpoint of hompm");
   if (all.size() < head_size) refuse("it is cut short, after " + std::to_string(all.size()) + " bytes");
   ByteReader head(all.substr(magic.size()));
-  if (const auto found = head.word(); found != format)
-    refuse("it has the format " + std::to_string(found) + ", and this hompm reads " + std::to_string(format));
+  if (const auto found = head.word(); found != checkpoint_format)
+    refuse("it has the format " + std::to_string(found) + ", and this hompm reads " +
+           std::to_string(checkpoint_format));
   const auto length = head.word();
   const auto hash = head.word();
   const std::string_view rest = all.substr(head_size);

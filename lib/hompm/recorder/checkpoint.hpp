@@ -16,6 +16,9 @@ class CheckpointError : public FileError {
   using FileError::FileError;
 };
 
+/// Of the layout of the bytes in a checkpoint; only this one is read.
+inline constexpr std::uint64_t checkpoint_format = 2;
+
 /// Everything a run is and has reported so far.
 struct Checkpoint {
   Scene scene;

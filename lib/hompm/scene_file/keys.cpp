@@ -59,6 +59,13 @@ std::string degree_ranges() {
   });
 }
 
+std::string relaxation_rates() {
+  std::string names;
+  for (const Scheme& scheme : scheme_table())
+    if (scheme.relaxes) names += (names.empty() ? "" : ", ") + scheme.name;
+  return "π c / length with " + names + "; else 0";
+}
+
 std::vector<KeyRow> make_key_table() {
   using enum Absent;
   const ValueRule text = any(ValueType::text);
@@ -209,7 +216,7 @@ std::vector<KeyRow> make_key_table() {
       {"scheme.relaxation_rate",
        {.type = ValueType::number, .unit = "1/s", .minimum = 0.0},
        of_scheme,
-       "π c / length with high-order, else 0",
+       relaxation_rates(),
        "",
        "at which displacements that project to nothing on the grid decay; 0 leaves them",
        [](Scene& scene) -> Slot { return &scene.scheme.relaxation_rate; }},
