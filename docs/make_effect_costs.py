@@ -8,6 +8,7 @@ With --check nothing is written: the exit code is 1 when a cost has moved by mor
 """
 import argparse
 import concurrent.futures
+import json
 import os
 import pathlib
 import re
@@ -117,8 +118,8 @@ def main():
     parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of hompm-run")
     parser.add_argument("--check", action="store_true", help="write nothing; fail when the table is stale")
     arguments = parser.parse_args()
-    listed = subprocess.run([arguments.tool.resolve() / "hompm-run", "--list"], capture_output=True, text=True, check=True).stdout.split("effects (")[1]
-    missing = set(re.findall(r"^  (\S+)", listed, re.MULTILINE)) - set(re.findall(r'type = "([\w-]+)"', str(ROWS)))
+    listed = subprocess.run([arguments.tool.resolve() / "hompm-run", "--list", "--json"], capture_output=True, text=True, check=True).stdout
+    missing = {effect["name"] for effect in json.loads(listed)["effects"]} - set(re.findall(r'type = "([\w-]+)"', str(ROWS)))
     if missing:
         sys.exit(f"no cost is measured for {', '.join(sorted(missing))}")
 

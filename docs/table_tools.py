@@ -19,12 +19,29 @@ class Tools:
         self.run_tool = folder / "hompm-run"
         self.work = pathlib.Path(work)
         self.known = {}  # reports, by their options
+        self.known_catalogue = None
 
     def text(self, *options):
         done = subprocess.run([self.run_tool, *map(str, options)], capture_output=True, text=True, check=False, cwd=self.work)
         if done.returncode != 0:
             sys.exit(f"{' '.join(['hompm-run', *map(str, options)])}: {done.stderr.strip() or done.stdout.strip()}")
         return done.stdout
+
+    def json(self, *options, tool="hompm-run"):
+        """What a tool prints with --json."""
+        done = subprocess.run([self.run_tool.with_name(tool), *map(str, options), "--json"], capture_output=True, text=True, check=False, cwd=self.work)
+        if done.returncode != 0:
+            sys.exit(f"{' '.join([tool, *map(str, options)])}: {done.stderr.strip() or done.stdout.strip()}")
+        return json.loads(done.stdout)
+
+    def catalogue(self):
+        """Cases, schemes, materials, effects, and the formats of files."""
+        if not self.known_catalogue:
+            self.known_catalogue = self.json("--list")
+        return self.known_catalogue
+
+    def schemes(self):
+        return [row["name"] for row in self.catalogue()["schemes"]]
 
     def complaint(self, *options):
         """What the tool says about a mistake."""

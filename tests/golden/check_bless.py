@@ -15,6 +15,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 NAME = "bar-small-classical"
 RUN = """#!/bin/sh
+if [ "$1" = --list ]; then echo '{{"schemes": [{{"name": "classical"}}]}}'; exit; fi
 while [ "$1" != --output ]; do shift; done
 mkdir -p "$2" && cp "{results}"/*.csv "{results}/scene.toml" "$2" && cat "{results}/run.json"
 exit {code}
@@ -35,9 +36,7 @@ class Place:
         self.tree = self.work / "tree"
         self.golden = self.tree / "golden" / NAME
         shutil.copytree(ROOT / "golden" / NAME, self.golden)
-        for name in ("golden/bless", "lib/hompm/scheme/scheme_table.cpp"):  # the script, and where it finds the schemes
-            (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / name, self.tree / name)
+        shutil.copy(ROOT / "golden/bless", self.tree / "golden/bless")
         self.git("init", "--quiet")
         self.commit("first")
         self.tools = [self.work / name / "bin" for name in ("g++", "clang++")]
