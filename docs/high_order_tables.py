@@ -20,7 +20,7 @@ COLUMN = ["--case", "column", "--variant", "large"]
 RAMPED = [*COLUMN, "--set", "effect.gravity.ramp_time=0.5", "--end-time", "1"]
 WEIGHT = 1000.0 * 9.81 * 1.0  # ρ g H of the settled column, Pa
 
-# From tielen2017 to high-order: what a rung sets, and what that buys.
+# From tielen2017 to high-order: what each step sets, and what that gains.
 LADDER = [
     (None, "where it starts"),
     ("time_integrator=leapfrog", "second order in time"),
@@ -36,10 +36,10 @@ LADDER = [
 LADDER_RUNS = {"bar": [*BAR, "--time-step", "2.5e-4"], "column": [*RAMPED, "--cells", "32", "--step-fraction", "0.5"]}
 
 
-def on_rung(tools, case, rung):
-    """The options of a rung; the rate of the last is what high-order takes by itself."""
+def at_step(tools, case, count):
+    """The options after `count` choices; the rate of the last is what high-order takes by itself."""
     options = [*LADDER_RUNS[case], "--scheme", "tielen2017", "--degree", "3"]
-    for key, _ in LADDER[1:rung + 1]:
+    for key, _ in LADDER[1:count + 1]:
         if key == "relaxation_rate":
             scene = tomllib.loads((tools.report(*LADDER_RUNS[case], *HIGH_ORDER, "--degree", 3)[1] / "scene.toml").read_text())
             key = f"relaxation_rate={scene['scheme']['relaxation_rate']!r}"
@@ -60,27 +60,27 @@ def run_or_failure(tools, options):
     return f"fails at t = {float(failed.group(1)):.2g}", None
 
 
-def rung_name(rung):
-    key = LADDER[rung][0]
+def choice_name(count):
+    key = LADDER[count][0]
     return f"`{key.replace('=', ' = ')}`" if key else "`tielen2017`"
 
 
 def ladder(tools):
-    """A row for each rung; the last must be high-order to the byte."""
-    jobs = [(case, on_rung(tools, case, rung)) for rung in range(len(LADDER)) for case in LADDER_RUNS]
+    """A row for each choice; the last must be high-order to the byte."""
+    jobs = [(case, at_step(tools, case, count)) for count in range(len(LADDER)) for case in LADDER_RUNS]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lambda job: run_or_failure(tools, job[1]), jobs))
     for (case, _), (_, folder) in list(zip(jobs, results))[-2:]:
         named = tools.report(*LADDER_RUNS[case], *HIGH_ORDER, "--degree", 3)[1]
         for name in ("particles.csv", "stress.csv", "history.csv"):
             if (named / name).read_bytes() != (folder / name).read_bytes():
-                sys.exit(f"make_tables: the last rung of the ladder is not high-order: {case}, {name}")
+                sys.exit(f"make_tables: after the last choice the scheme is not high-order: {case}, {name}")
     rows = []
-    for rung, (_, gain) in enumerate(LADDER):
-        (bar, _), (column, folder) = results[2 * rung:2 * rung + 2]
+    for count, (_, gain) in enumerate(LADDER):
+        (bar, _), (column, folder) = results[2 * count:2 * count + 2]
         errors = [short(error_of(bar, field)) for field in ("displacement", "velocity", "stress")]
         errors += [short(error_of(column, field)) for field in ("displacement", "stress")] if folder else [column, "–"]
-        rows.append([rung_name(rung), gain, *errors, f"{bar['critical_time_step'] * 10.0 / (25.0 / 64):.3f}"])
+        rows.append([choice_name(count), gain, *errors, f"{bar['critical_time_step'] * 10.0 / (25.0 / 64):.3f}"])
     return table(["change", "what it buys", "bar: u", "bar: v", "bar: σ", "column: u", "column: σ", "c Δt/h"], rows, range(2, 8))
 
 

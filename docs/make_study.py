@@ -170,10 +170,10 @@ def ladder():
     own = [float(row["instructions_per_particle_and_step"]) for row in rows]
     said = [set(row["point"].split(",")) for row in rows]
     new = ["tielen2017", *((after - before).pop() for before, after in zip(said, said[1:]))]
-    rungs = [f"`{choice.replace('=', ' = ')}`" if "rate" not in choice else "`relaxation_rate`" for choice in new]
+    names = [f"`{choice.replace('=', ' = ')}`" if "rate" not in choice else "`relaxation_rate`" for choice in new]
     return table(["change", "instructions per particle and step", "over `tielen2017`", "error in u", "error in σ"],
-                 [[rung, f"{cost:.0f}", f"{cost / own[0]:.2f}", *(short(float(row[f"{field}_relative_l2"])) for field in ("displacement", "stress"))]
-                  for rung, cost, row in zip(rungs, own, rows)], range(1, 5))
+                 [[name, f"{cost:.0f}", f"{cost / own[0]:.2f}", *(short(float(row[f"{field}_relative_l2"])) for field in ("displacement", "stress"))]
+                  for name, cost, row in zip(names, own, rows)], range(1, 5))
 
 
 def scaling():

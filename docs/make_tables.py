@@ -412,7 +412,7 @@ def rooms(_tools):
         lines = "\n".join(path.read_text() for path in (library / room).rglob("*.[ch]pp")).split("\n")
         used = {line.split("/")[1] for line in lines if line.startswith("#include <hompm/")} - {room}
         rows.append([f"`{room}`", purpose, ", ".join(name for name in ROOMS if name in used) or "–"])
-    return table(["room", "what it holds", "uses"], rows)
+    return table(["folder", "what it holds", "uses"], rows)
 
 
 def parting(tools):
