@@ -1,11 +1,14 @@
 #!/bin/sh
-# Installs the Debian packages that building hompm needs, and with --tests those that its tests need, too.
-# Does nothing when all are there.
+# Installs the Debian packages that building hompm needs; with --tests those of tests/run.sh, too, and with --all those of
+# tests/run.sh all. Does nothing when all are there.
 set -eu
 
 packages="g++ cmake ninja-build libboost-dev libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev"
-if [ "${1:-}" = --tests ]; then
-  packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy octave clang clang-format clang-tidy llvm lcov valgrind gnuplot-nox snakemake"
+case "${1:-}" in
+  --tests | --all) packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy valgrind gnuplot-nox" ;;
+esac
+if [ "${1:-}" = --all ]; then
+  packages="$packages octave clang clang-format clang-tidy llvm lcov snakemake"
   # other architectures, for the reproducibility tests
   packages="$packages g++-aarch64-linux-gnu g++-s390x-linux-gnu qemu-user"
 fi

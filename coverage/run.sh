@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-cli/setup.sh --tests
+cli/setup.sh --all
 cmake --preset coverage >/dev/null
 cmake --build --preset coverage
 rm -rf build/coverage/profiles
@@ -12,11 +12,11 @@ rm -rf build/coverage/profiles
 unfit="no room for checkpoints|instructions repeat|counted steps|one worker, with two"
 # The others run the same code, only longer. Programs that run at the same time share four files of counts.
 LLVM_PROFILE_FILE="$PWD/build/coverage/profiles/%4m.profraw" \
-  ctest --preset coverage --parallel "$(nproc)" --output-on-failure -LE "verification|stability|docs|cost|reproducibility" -E "$unfit"
+  ctest --preset coverage --parallel "$(nproc)" --output-on-failure --output-junit "$PWD/build/coverage/tests.xml" -LE "verification|stability|docs|cost|reproducibility" -E "$unfit"
 
 cd build/coverage
 llvm-profdata merge -sparse profiles/*.profraw -o tests.profdata
-programs="-object tests/test_cli -object bin/hompm-run -object bin/hompm-diff -object bin/hompm-study"
+programs="-object tests/test_cli -object tests/test_faults -object bin/hompm-run -object bin/hompm-diff -object bin/hompm-study"
 library="$(cd ../.. && pwd)/lib/hompm"
 # shellcheck disable=SC2086
 llvm-cov show -format=html -show-branches=count -instr-profile tests.profdata -output-dir branches \
@@ -24,6 +24,6 @@ llvm-cov show -format=html -show-branches=count -instr-profile tests.profdata -o
 # shellcheck disable=SC2086
 llvm-cov export -format=lcov -instr-profile tests.profdata tests/test_unit $programs "$library" >lib.info
 genhtml --quiet --legend --title "hompm: lib/" --prefix "$library" --output-directory report lib.info
-../../coverage/measure.py tests.profdata tests/test_unit tests/test_cli bin/hompm-run bin/hompm-diff bin/hompm-study --missed missed.txt
+../../coverage/measure.py tests.profdata tests/test_unit tests/test_cli tests/test_faults bin/hompm-run bin/hompm-diff bin/hompm-study --missed missed.txt
 echo "coverage: report in build/coverage/report/index.html, branches in build/coverage/branches/index.html,"
 echo "          what is not reached in build/coverage/missed.txt"

@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-60}
-cli/setup.sh --tests
+cli/setup.sh --all
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target fuzz_scene fuzz_csv -- --quiet
 

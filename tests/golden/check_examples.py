@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the other codes of golden/examples and lets hompm-diff judge them.
 
-    tests/golden/check_examples.py build/release/bin
+    tests/golden/check_examples.py build/release/bin [EXAMPLE ...]     all, or those named
 
 They share no line with hompm, so they also say that the golden data are what the schemes make of the scenes.
 """
@@ -34,7 +34,10 @@ def judge(tool, csv, golden, *options):
 def main():
     tool = pathlib.Path(sys.argv[1]).resolve() / "hompm-diff"
     complaints = []
-    for interpreter, example, name, distance, error in RUNS:
+    runs = [run for run in RUNS if len(sys.argv) == 2 or run[1] in sys.argv[2:]]
+    if not runs:
+        sys.exit(f"there is no example {' '.join(sys.argv[2:])}")
+    for interpreter, example, name, distance, error in runs:
         if shutil.which(interpreter[0]) is None:
             complaints.append(f"{example}: {interpreter[0]} is not installed")
             continue

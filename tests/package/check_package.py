@@ -24,7 +24,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         run("cmake", "--install", build_dir, "--prefix", work / "prefix")
-        run("cmake", "-S", HERE, "-B", work / "build", f"-DCMAKE_PREFIX_PATH={work / 'prefix'}", f"-DCMAKE_CXX_COMPILER={compiler}",
+        run("cmake", "-G", "Ninja", "-S", HERE, "-B", work / "build", f"-DCMAKE_PREFIX_PATH={work / 'prefix'}", f"-DCMAKE_CXX_COMPILER={compiler}",
             "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         run("cmake", "--build", work / "build")
         velocity, residual = map(float, run(work / "build/drag", HERE / "falling.toml").split())

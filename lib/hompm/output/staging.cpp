@@ -57,7 +57,8 @@ Staging Staging::create(const fs::path& folder) {
       if (lock.held() || (!lock.taken() && fs::exists(path, ignored))) return {path, std::move(lock)};
     }
     path = base;
-    path += "-" + std::to_string(copy);
+    path += '-';  // "-" + std::to_string(copy) makes g++ 12 -O3 warn of an overlap (GCC bug 105651)
+    path += std::to_string(copy);
   }
 }
 
