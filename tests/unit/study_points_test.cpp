@@ -143,6 +143,9 @@ TEST_CASE("a value that no point can take is an error, one that some refuse is n
   // classical has degree 1 alone, high-order from 2 on.
   const Study mixed = bar({{{"scheme.name", {"classical", "high-order"}}, {"scheme.degree", {"1", "2"}}}});
   CHECK(study::checked_points(mixed).size() == 4);
+  const std::vector<std::string> many(101, "8");  // each name counts, though it is one point
+  CHECK(contains(complaint(bar({{{"scheme.cells", many}, {"scheme.degree", many}}})),
+                 "more than 10000 points"));
 }
 
 TEST_CASE("a study file is read with all its problems, and written back as it was", "[study]") {

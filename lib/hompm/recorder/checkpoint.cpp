@@ -61,22 +61,22 @@ void write_records(ByteWriter& out, const Checkpoint& checkpoint) {
 }
 
 void read_records(ByteReader& in, Checkpoint& checkpoint) {
-  checkpoint.history.resize(in.count(8));
+  const std::vector<std::int64_t> bodies = body_numbers(checkpoint.point.states);
+  checkpoint.history.resize(in.count(8 * (1 + detail::history_columns.size())));
   for (HistoryRow& row : checkpoint.history) {
     row.time = in.number();
     for (const auto& column : detail::history_columns) row.*column.value = in.number();
   }
-  checkpoint.snapshots.resize(in.count(8));
+  checkpoint.snapshots.resize(in.count(16 + 8 * detail::all_columns.size() * bodies.size()));
   for (Snapshot& snapshot : checkpoint.snapshots) {
     snapshot.time = in.number();
-    const std::size_t size = in.count(8);
+    if (in.word() != bodies.size()) throw Error("a snapshot in it does not fit its scene");
     for (const auto& column : detail::all_columns) {
       auto& values = snapshot.*column.values;
-      values.resize(size);
+      values.resize(bodies.size());
       for (double& value : values) value = in.number();
     }
-    snapshot.body =
-        checkpoint.scene.bodies.empty() ? std::vector<std::int64_t>{} : body_numbers(checkpoint.point.states);
+    if (!checkpoint.scene.bodies.empty()) snapshot.body = bodies;
   }
 }
 
@@ -93,12 +93,23 @@ void read_point(ByteReader& in, RunPoint& point) {
   for (State& state : point.states) detail::read_state(in, state);
 }
 
+/// The state of a scene takes memory: no more than what follows can fill.
+void check_room(const Scene& scene, std::size_t bytes) {
+  std::int64_t values = 0;
+  for (const Scene* body : bodies_of(scene))
+    values += std::int64_t{body->scheme.cells} * (std::int64_t{body->scheme.particles_per_cell} + 1) +
+              body->scheme.margin_cells;
+  if (static_cast<std::uint64_t>(values) > bytes / 8) throw detail::BytesEnd();
+}
+
 Checkpoint read_content(std::string_view bytes, const std::string& source) {
   ByteReader in(bytes);
   if (const std::string writer = in.text(); writer != identity())
     throw Error("it was written by hompm " + writer + ", and this is " + identity() +
                 ": the result would be that of neither");
-  Checkpoint checkpoint = first_checkpoint(parse_scene(in.text(), "scene in " + source, {}));
+  const Scene scene = parse_scene(in.text(), "scene in " + source, {});
+  check_room(scene, in.left());
+  Checkpoint checkpoint = first_checkpoint(scene);
   detail::read_value(in, checkpoint.every);
   checkpoint.vtk = in.word() != 0;
   checkpoint.seconds = in.number();

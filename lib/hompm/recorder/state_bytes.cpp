@@ -18,6 +18,15 @@ void read_state(ByteReader& in, State& state) {
     if (in.count(8) != values.size()) throw Error("its field " + found + " does not fit its scene");
     for (auto& value : values) read_value(in, value);
   });
+  const auto refuse = [](const char* field) {
+    throw Error(std::string("its field ") + field + " does not fit its scene");
+  };
+  if (state.step < 0) refuse("step");
+  for (const double boundary : {state.left_boundary, state.right_boundary})
+    if (state.grid.locate(boundary).cell < 0) refuse("left_boundary or right_boundary");
+  const std::int64_t last = state.grid.functions() - static_cast<std::int64_t>(state.basis.stencil);
+  for (const std::int32_t first : state.basis.first)
+    if (first < 0 || first > last) refuse("basis.first");  // kernels read from there on
 }
 
 }  // namespace hompm::detail

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include <hompm/recorder/trace_file.hpp>
@@ -7,6 +8,8 @@ namespace hompm::detail {
 namespace {
 
 constexpr std::size_t end_size = 2 + 8;  // tag and hash
+constexpr std::size_t most = std::size_t{1}
+                             << 48U;  // numbers above this are damage, and do not overflow below
 
 }  // namespace
 
@@ -34,20 +37,42 @@ TraceFile::TraceFile(const std::filesystem::path& path, std::string shown)
 
 void TraceFile::damaged() const { throw FileError("cannot read " + name + ": the trace is damaged"); }
 
+/// A text that is shown: without control characters.
+std::string TraceFile::word() {
+  std::string text = in_.text();
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) damaged();
+  return text;
+}
+
+/// What places and particles are named by fits together.
+void TraceFile::check_fields() const {
+  if (fields.empty() || markers > most || first_step < 0 || first_step > static_cast<std::int64_t>(most))
+    damaged();
+  std::size_t sites = 0;  // particles and markers of the body
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto [site, size] = std::pair(fields[i].site, fields[i].size);
+    if (size > most || site > Site::function) damaged();
+    if (i > 0 && fields[i].body != fields[i - 1].body) sites = 0;
+    if (site == Site::particle && sites == 0) sites = size;
+    if (site == Site::particle && (size != sites || size <= 2 * markers)) damaged();
+    if (site == Site::particle_function && (sites == 0 || size == 0 || size % sites != 0)) damaged();
+  }
+}
+
 void TraceFile::read_header() {
   if (const auto format = in_.word(); format != trace_format)
     throw FileError("cannot read " + name + ": the trace has the format " + std::to_string(format) +
                     ", and this hompm reads " + std::to_string(trace_format));
-  build = in_.text();
+  build = word();
   scene = in_.text();
   markers = static_cast<std::size_t>(in_.word());
   first_step = step_ = static_cast<std::int64_t>(in_.word());
   stages.resize(in_.count(16));
-  for (TraceStage& stage : stages) stage = {in_.text(), in_.text()};
+  for (TraceStage& stage : stages) stage = {word(), word()};
   fields.resize(in_.count(48));
   std::size_t next_body = 0;
   for (TraceField& field : fields) {
-    field.name = in_.text();
+    field.name = word();
     field.body = static_cast<std::size_t>(in_.word());
     if (field.body > next_body) damaged();
     next_body = field.body + 1;
@@ -56,6 +81,7 @@ void TraceFile::read_header() {
     field.size = static_cast<std::size_t>(in_.word());
     field.hash = in_.word();
   }
+  check_fields();
 }
 
 void TraceFile::take() {

@@ -65,6 +65,8 @@ class TraceFile {
 
  private:
   void read_header();
+  void check_fields() const;
+  std::string word();
   void read_next();
   void read_entry(std::uint64_t stage);
   [[noreturn]] void damaged() const;

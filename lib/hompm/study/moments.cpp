@@ -21,17 +21,20 @@ std::int64_t step_from_moments(const std::filesystem::path& folder) {
   const auto path = folder / "moments";
   const std::string bytes = detail::read_bytes(path);
   detail::ByteReader in(bytes);
-  try {
-    Simulation simulation(scene, in.number());
-    const std::size_t moments = in.count(8);
-    for (std::size_t moment = 0; moment < moments; ++moment) {
-      detail::read_state(in, simulation.state());
-      simulation.step();
+  const auto readable = [&](const auto& read) {
+    try {
+      return read();
+    } catch (const Error& error) {
+      throw FileError("cannot read " + path.string() + ": " + error.what());
     }
-    return static_cast<std::int64_t>(moments);
-  } catch (const detail::BytesEnd& end) {
-    throw FileError("cannot read " + path.string() + ": " + end.what());
+  };
+  Simulation simulation(scene, readable([&] { return in.number(); }));
+  const std::size_t moments = readable([&] { return in.count(8); });
+  for (std::size_t moment = 0; moment < moments; ++moment) {
+    readable([&] { detail::read_state(in, simulation.state()); });
+    simulation.step();
   }
+  return static_cast<std::int64_t>(moments);
 }
 
 }  // namespace hompm::study

@@ -106,12 +106,17 @@ Sweep in_order(Sweep sweep) {
 }
 
 std::vector<Point> points_of(const Study& study) {
+  constexpr std::size_t most = 10000;
+  std::size_t count = 0;
   std::vector<Point> points;
   std::set<std::string> names;
   for (const Sweep& unordered : study.sweeps) {
     const Sweep sweep = in_order(unordered);
     std::vector<Setting> said;
     expand(study, sweep, said, [&](const std::vector<Setting>& settings) {
+      if (++count > most)
+        throw SceneError(Origin{"sweeps"}, "more than " + std::to_string(most) +
+                                               " points: take fewer values, or part the study in several");
       std::string name = name_of(settings);
       if (names.insert(name).second) points.push_back({std::move(name), settings});
     });

@@ -45,7 +45,7 @@ struct Point {
 Sweep in_order(Sweep sweep);
 
 /// The points of all sweeps, in order, each once. Their settings are `in_order`: the order of
-/// the axes does not matter.
+/// the axes does not matter. Throws `SceneError` for more than 10000.
 std::vector<Point> points_of(const Study& study);
 
 /// The scene of a point. Throws `SceneError`.
