@@ -5,7 +5,7 @@ The mass is M, or with the extension Cᵀ M C (docs/high-order.md); the critical
 """
 import math
 
-from stability_limits import GAUSS, basis, cholesky, tied
+from stability_limits import GAUSS, basis, tied
 
 CELLS = 16
 
@@ -26,6 +26,25 @@ def matrices(degree, fraction):
                         mass[cell + a][cell + b] += 0.5 * width * weight * values[a] * values[b]
                         stiffness[cell + a][cell + b] += 0.5 * width * weight * slopes[a] * slopes[b]
     return mass, stiffness
+
+
+def cholesky(rows, reach):
+    """Band factor of a symmetric positive definite matrix, as a function that solves with it."""
+    size = len(rows)
+    lower = [[0.0] * size for _ in range(size)]
+    for i in range(size):
+        for j in range(max(0, i - reach), i + 1):
+            s = rows[i][j] - sum(lower[i][k] * lower[j][k] for k in range(max(0, i - reach), j))
+            lower[i][j] = math.sqrt(s) if i == j else s / lower[j][j]
+
+    def solve(b):
+        x = b[:]
+        for i in range(size):
+            x[i] = (x[i] - sum(lower[i][k] * x[k] for k in range(max(0, i - reach), i))) / lower[i][i]
+        for i in reversed(range(size)):
+            x[i] = (x[i] - sum(lower[k][i] * x[k] for k in range(i + 1, min(size, i + reach + 1)))) / lower[i][i]
+        return x
+    return solve
 
 
 def times(matrix, x):

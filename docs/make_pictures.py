@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Draws the pictures of docs/pictures anew, from runs.
 
-    docs/make_pictures.py [--tool build/release/bin] [--check]
+    docs/make_pictures.py [--tool build/release/bin] [--check] [--tables]
+
+With --tables the parts of docs/make_tables.py, too: many come from the same runs.
 
 With --check nothing is written: the exit code is 1 when a picture is stale. Another version of gnuplot draws other bytes; a
 picture by another version is then passed over, with a note.
@@ -185,11 +187,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("--tool", type=pathlib.Path, default=make_tables.ROOT / "build/release/bin", help="folder of hompm-run")
     parser.add_argument("--check", action="store_true", help="write nothing; fail when a picture is stale")
+    parser.add_argument("--tables", action="store_true", help="those of make_tables.py, too")
     arguments = parser.parse_args()
 
     stale = []
     with tempfile.TemporaryDirectory() as work:
         tools = make_tables.Tools(arguments.tool.resolve(), work)
+        if arguments.tables:
+            stale += make_tables.renew_all(tools, arguments.check, make_tables.SLOW_PARTS)
         for name, draw in (("bar-large", bar_large), ("column-settled", column_settled), ("cut-span", cut_span), ("limit-cut", limit_cut), ("long-run", long_run), ("hard-cases", hard), ("comparing", comparing)):
             subprocess.run(["gnuplot"], input=draw(tools), text=True, check=True, cwd=work)
             new = (pathlib.Path(work) / f"{name}.svg").read_text()

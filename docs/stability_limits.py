@@ -58,59 +58,24 @@ def tied(matrix, degree, j):
     return result
 
 
-def cholesky(rows, reach):
-    """Band factor of a symmetric positive definite matrix, as a function that solves with it."""
-    size = len(rows)
-    lower = [[0.0] * size for _ in range(size)]
-    for i in range(size):
-        for j in range(max(0, i - reach), i + 1):
-            s = rows[i][j] - sum(lower[i][k] * lower[j][k] for k in range(max(0, i - reach), j))
-            lower[i][j] = math.sqrt(s) if i == j else s / lower[j][j]
-
-    def solve(b):
-        x = b[:]
-        for i in range(size):
-            x[i] = (x[i] - sum(lower[i][k] * x[k] for k in range(max(0, i - reach), i))) / lower[i][i]
-        for i in reversed(range(size)):
-            x[i] = (x[i] - sum(lower[k][i] * x[k] for k in range(i + 1, min(size, i + reach + 1)))) / lower[i][i]
-        return x
-    return solve
-
-
-def courant(degree, end, acceleration, velocity, rounds=1500):
+def courant(degree, end, acceleration, velocity):
     """`end` on the right: fixed; margin, free with grid beyond; cut, free at the last knot. The left end is fixed.
     `acceleration`, `velocity`: lumped or consistent mass."""
-    consistent = velocity == "consistent"
+    import numpy  # pylint: disable=import-outside-toplevel  (python3-numpy, which no other part needs)
     mass, stiffness = matrices(degree, degree + 1 if end == "margin" else 0)
     first, last = 1, CELLS + degree - (1 if end == "fixed" else 0)
+    if acceleration == "consistent" and end == "margin":
+        last -= 1
+        mass, stiffness = tied(mass, degree, last), tied(stiffness, degree, last)
+    lumped = numpy.sum(mass, axis=1)[first:last]
+    mass, stiffness = (numpy.array(matrix)[first:last, first:last] for matrix in (mass, stiffness))
+    # Each map has the eigenvalues of a symmetric matrix.
     if acceleration == "consistent":
-        if end == "margin":
-            last -= 1
-            mass, stiffness = tied(mass, degree, last), tied(stiffness, degree, last)
-        solve = cholesky([row[first:last] for row in mass[first:last]], degree + 1)
-        rounds //= 5
-    lumped = [sum(row) for row in mass[first:last]]
-
-    def sparse(matrix):
-        return [[(j - first, row[j]) for j in range(first, last) if row[j] != 0.0] for row in matrix[first:last]]
-
-    mass, stiffness = sparse(mass), sparse(stiffness)
-
-    def times(matrix, x):
-        return [sum(entry * x[j] for j, entry in row) for row in matrix]
-
-    def over_lumped(x):
-        return [a / m for a, m in zip(x, lumped)]
-
-    # Power iteration; the Rayleigh quotient, in the inner product in which the map is symmetric, squares its error.
-    x = [math.sin(1.0 + 7.0 * i * i) for i in range(last - first)]
-    for _ in range(rounds):
-        if acceleration == "consistent":
-            y, weighted = solve(times(stiffness, x)), times(mass, x)
-        else:
-            y = over_lumped(times(stiffness, x if consistent else over_lumped(times(mass, x))))
-            weighted = [a * m for a, m in zip(x, lumped)] if consistent else times(mass, x)
-        largest = sum(a * b for a, b in zip(y, weighted)) / sum(a * b for a, b in zip(x, weighted))
-        length = math.sqrt(sum(a * a for a in y))
-        x = [a / length for a in y]
-    return 2.0 / math.sqrt(largest)
+        root = numpy.linalg.cholesky(mass)
+        symmetric = numpy.linalg.solve(root, numpy.linalg.solve(root, stiffness).T)
+    elif velocity == "consistent":
+        symmetric = stiffness / numpy.sqrt(numpy.outer(lumped, lumped))
+    else:
+        root = numpy.linalg.cholesky(mass / numpy.outer(lumped, lumped))
+        symmetric = root.T @ stiffness @ root
+    return 2.0 / math.sqrt(numpy.linalg.eigvalsh(symmetric)[-1])

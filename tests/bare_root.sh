@@ -1,13 +1,15 @@
 #!/bin/sh
 # Runs the README's two commands where nothing is installed: in a bare Debian root, on a clone of the commit that is checked out here.
-#   tests/bare_root.sh [SUITE]    bookworm (default) or trixie
+#   tests/bare_root.sh [SUITE [COMMAND...]]    SUITE: bookworm (default) or trixie; COMMAND instead of the two, such as cli/setup.sh
 # The root is made by debootstrap (minbase), from the Debian sources that apt has on this machine, and removed at the end.
 # Needs root, for debootstrap, chroot and a /proc in the chroot, and 3 GB below TMPDIR (/tmp).
 set -eu
 cd "$(dirname "$0")/.."
 suite=${1:-bookworm}
+[ $# = 0 ] || shift
+[ $# -gt 0 ] || set -- cli/column.sh tests/run.sh
 fail() { echo "bare_root: $1" >&2 && exit 1; }
-[ "$(id -u)" = 0 ] || fail "debootstrap, chroot and mounting /proc need root: sudo $0 $*"
+[ "$(id -u)" = 0 ] || fail "debootstrap, chroot and mounting /proc need root: sudo $0"
 for tool in debootstrap unshare chroot git; do
   command -v $tool >/dev/null || fail "there is no $tool: apt-get install debootstrap util-linux git"
 done
@@ -42,8 +44,8 @@ inside() {
     /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin ${http_proxy:+http_proxy="$http_proxy"} sh -c "cd /root/hompm && $1"
 }
 inside true || fail "cannot mount /proc and chroot: this needs root with CAP_SYS_ADMIN (in a container: --privileged)"
-part "cli/column.sh"
-inside cli/column.sh
-part "tests/run.sh"
-inside tests/run.sh
+for command in "$@"; do
+  part "$command"
+  inside "$command"
+done
 part "done; $(du -sm --exclude=build "$root" | cut -f 1) MB with packages"
