@@ -4,8 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <csignal>
+#include <fcntl.h>
 #include <iostream>
+#include <new>
 #include <system_error>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -181,8 +184,22 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near.empty() ? "" : "; did you mean " + near + "?";
 }
 
+namespace {
+
+/// A standard stream that is closed is opened, such that reading or writing it fails as before.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) {
+      const int flags = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+      if (::open("/dev/null", flags) < 0) ::_exit(bad_file);  // it takes the lowest place that is free: this
+    }
+}
+
+}  // namespace
+
 int run_tool(Tool tool, int argc, const char* const* argv,
              const std::function<int(const CommandLine&)>& body) {
+  open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);
   const auto fail = [&](const std::string& message, int code) {
     std::cerr << tool.name << ": " << message << '\n';
@@ -206,6 +223,10 @@ int run_tool(Tool tool, int argc, const char* const* argv,
     return fail(error.what(), bad_file);
   } catch (const ArithmeticError& error) {
     return fail(error.what(), arithmetic);
+  } catch (const std::bad_alloc&) {
+    return fail("there is not enough memory", bad_file);
+  } catch (const std::length_error&) {
+    return fail("there is not enough memory: more than any machine has was asked for", bad_file);
   } catch (const std::exception& error) {
     return fail(std::string("internal error: ") + error.what(), internal);
   }

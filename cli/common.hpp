@@ -13,14 +13,13 @@ namespace hompm::cli {
 
 /// What a tool hands back to the shell.
 enum ExitCode {
-  success = 0,        ///< done; for a comparison: identical or equivalent
-  internal = 1,       ///< a fault of ours
-  usage = 2,          ///< a bad command line or scene: nothing was computed or written
-  different = 3,      ///< a comparison found a difference
-  invalid_run = 4,    ///< the run stopped being valid
-  bad_file = 5,       ///< something could not be read or written
-  arithmetic = 6,     ///< this build or process does not compute as IEEE 754 says
-  interrupted = 130,  ///< by a signal; the same command goes on
+  success = 0,      ///< done; for a comparison: identical or equivalent
+  internal = 1,     ///< a fault of ours
+  usage = 2,        ///< a bad command line or scene: nothing was computed or written
+  different = 3,    ///< a comparison found a difference
+  invalid_run = 4,  ///< the run stopped being valid
+  bad_file = 5,     ///< something could not be read or written, or memory not be had
+  arithmetic = 6,   ///< this build or process does not compute as IEEE 754 says; 128 + n: stopped by signal n
 };
 
 /// A command line that makes no sense; `what()` says why in one line.
@@ -81,7 +80,7 @@ struct Tool {
 /// the rest. Options must be written out: an abbreviation is an error like any unknown name, and the nearest
 /// known one is suggested. Turns what is thrown into "<tool>: <message>" on standard error and an exit code,
 /// and makes sure that all of standard output was written. A file size limit is an error to report, not a
-/// signal.
+/// signal, and no file that is opened later gets the place of a standard stream that is closed.
 int run_tool(Tool tool, int argc, const char* const* argv,
              const std::function<int(const CommandLine&)>& body);
 

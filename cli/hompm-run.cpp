@@ -3,10 +3,7 @@
 // Reads a scene (built in, or a file), applies what the command line says about it, runs it, writes the
 // output folder, and prints errors against the reference solution and the balances. With --check the scene of
 // a golden folder is run and the result compared with it. Sample runs: below, in the topics of --help.
-#include <chrono>
-#include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,27 +11,16 @@
 
 #include <boost/program_options.hpp>
 
-#include <hompm/error.hpp>
-#include <hompm/number.hpp>
-#include <hompm/output/run_folder.hpp>
-#include <hompm/output/run_report.hpp>
-#include <hompm/recorder/checkpoint_writer.hpp>
-#include <hompm/recorder/trace.hpp>
-#include <hompm/scene_file/reader.hpp>
-#include <hompm/simulation/caution.hpp>
-#include <hompm/simulation/run.hpp>
-#include <hompm/verify/compare.hpp>
+#include <hompm/recorder/checkpoint.hpp>
 
 #include "common.hpp"
-#include "comparison_text.hpp"
+#include "interruption.hpp"
 #include "listing.hpp"
-#include "progress.hpp"
 #include "scene_choice.hpp"
+#include "scene_run.hpp"
 
 namespace {
 
-using hompm::cli::UsageError;
-namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 hompm::cli::Tool this_tool() {
@@ -73,7 +59,11 @@ hompm::cli::Tool this_tool() {
             {"hompm-run --case bar --output out --snapshots 50", "hompm-run --case bar --json"},
             {{"output", "DIR", "output folder (default hompm-out/CASE-VARIANT-SCHEME)"},
              {"snapshots", "N", "output.snapshots, after the start"},
+             {"no-clobber", "", "refuse to replace a run that is in the output folder"},
              {"no-vtk", "", "write no vtk files"},
+             {"errors", "WHICH",
+              "errors against the reference solution: auto, unless it takes longer than the run and 2 s "
+              "(default); full, however long it takes (default with --check); none"},
              {"quiet", "", "print nothing but errors"}}},
            {"comparison",
             "with golden data, or of two builds stage by stage",
@@ -85,128 +75,13 @@ hompm::cli::Tool this_tool() {
             "of a run that was stopped",
             {"hompm-run --case bar --checkpoint 1000 --output out", "hompm-run --resume out"},
             {{"checkpoint", "EVERY", "write checkpoint.hompm into the output folder every EVERY steps"},
+             {"keep-checkpoint", "",
+              "write one at the end, too, and keep it: --resume with a later --end-time"},
              {"resume", "FILE", "go on from a checkpoint, in its folder unless --output is given"}}}},
       .remarks =
           "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became\n"
           "invalid, 5 cannot read or write, 6 this build or process does not compute as\n"
-          "IEEE 754 says.\n"};
-}
-
-fs::path output_folder(const po::variables_map& given, const hompm::Scene& scene) {
-  if (given.count("output")) return given["output"].as<std::string>();
-  if (given.count("resume")) return hompm::checkpoint_folder(given["resume"].as<std::string>());
-  std::string name = scene.case_name;
-  if (!scene.variant.empty()) name += "-" + scene.variant;
-  return fs::path("hompm-out") / (name + "-" + scene.scheme.name);
-}
-
-int check_against(const fs::path& golden, const fs::path& folder, bool quiet) {
-  const hompm::Comparison comparison = hompm::compare_folders(folder, golden, {});
-  const bool same = comparison.verdict == hompm::Verdict::identical;
-  if (!quiet || !same)
-    (quiet ? std::cerr : std::cout) << "  golden    " << golden.string() << ": "
-                                    << hompm::cli::comparison_text(comparison);
-  return same ? hompm::cli::success : hompm::cli::different;
-}
-
-/// How a run begins: anew, or where the checkpoint `from` was written.
-hompm::Checkpoint starting_point(const hompm::Scene& scene, const po::variables_map& given,
-                                 std::optional<hompm::Checkpoint> from) {
-  hompm::Checkpoint point = from ? std::move(*from) : hompm::first_checkpoint(scene);
-  point.scene = scene;
-  point.vtk = point.vtk && given.count("no-vtk") == 0;
-  if (given.count("checkpoint"))
-    point.every = hompm::cli::parse_steps(given["checkpoint"].as<std::string>(), "--checkpoint", 1);
-  return point;
-}
-
-/// The trace that --trace asks for; nothing without.
-std::unique_ptr<hompm::Trace> open_trace(const po::variables_map& given) {
-  hompm::TraceOptions options;
-  if (given.count("trace-values")) {
-    if (!given.count("trace")) throw UsageError("--trace-values goes with --trace");
-    options.values_from =
-        hompm::cli::parse_steps(given["trace-values"].as<std::string>(), "--trace-values", 0);
-  }
-  if (!given.count("trace")) return nullptr;
-  return std::make_unique<hompm::Trace>(given["trace"].as<std::string>(), options);
-}
-
-/// Runs the scene into its folder. A run that becomes invalid leaves its last valid snapshot, marked as such.
-int run_scene(const hompm::Scene& scene, const po::variables_map& given,
-              std::optional<hompm::Checkpoint> from) {
-  const bool quiet = given.count("quiet") > 0;
-  const bool resumed = from.has_value();
-  const auto form = given.count("json") > 0 ? hompm::cli::Form::json : hompm::cli::Form::text;
-  if (given.count("critical-step")) {
-    std::cout << hompm::cli::critical_steps(scene, form);
-    return hompm::cli::success;
-  }
-  const hompm::TimeStepping stepping = hompm::time_stepping(scene);
-  const hompm::Checkpoint begin = starting_point(scene, given, std::move(from));
-  if (given.count("explain")) {
-    std::cout << hompm::cli::explanation(scene, stepping, form);
-    return hompm::cli::success;
-  }
-  if (const std::string caution = hompm::caution(scene); !quiet && !caution.empty())
-    hompm::cli::warn(caution);
-  hompm::RunFolder folder(output_folder(given, scene), begin.vtk, !scene.bodies.empty());
-  const auto trace = open_trace(given);
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return begin.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  std::optional<hompm::CheckpointWriter> checkpoints;
-  if (begin.every > 0) checkpoints.emplace(folder, begin, hompm::cli::warn);
-  if (!resumed && !quiet && fs::exists(folder.path() / hompm::checkpoint_name))
-    hompm::cli::warn("the run that was stopped in " + folder.path().string() + " is replaced (--resume " +
-                     folder.path().string() + " would go on with it)");
-  for (const auto& row : begin.history) folder.write(row);
-  for (const auto& snapshot : begin.snapshots) folder.write(snapshot);
-  hompm::Snapshot last_valid = begin.snapshots.empty() ? hompm::Snapshot{} : begin.snapshots.back();
-
-  hompm::RunObserver observer;
-  observer.snapshot = [&](const hompm::Snapshot& snapshot) {
-    folder.write(snapshot);
-    if (checkpoints) checkpoints->keep(snapshot);
-    last_valid = snapshot;
-  };
-  observer.history = [&](const hompm::HistoryRow& row) {
-    folder.write(row);
-    if (checkpoints) checkpoints->keep(row);
-  };
-  observer.checkpoint = [&](const hompm::RunPoint& point) { checkpoints->write(point, seconds()); };
-  observer.checkpoint_every = begin.every;
-  if (trace) observer.start = [&](hompm::Simulation& simulation) { trace->attach(scene, simulation); };
-  std::optional<hompm::RunResult> result;
-  try {
-    hompm::cli::ProgressBar bar(quiet);
-    observer.progress = [&](std::int64_t step, std::int64_t steps) { bar.update(step, steps); };
-    result = hompm::run(scene, stepping, observer, resumed ? &begin.point : nullptr);
-  } catch (const hompm::InvalidRun& invalid) {
-    folder.keep_invalid(last_valid, invalid.what());
-    throw;
-  }
-  if (trace) trace->close();
-
-  std::string no_errors_because;
-  const auto errors = hompm::judge(scene, *result, no_errors_because);
-  const hompm::RunReport report{scene, stepping, *result, errors, no_errors_because};
-  const std::string json = hompm::run_json(report);
-  folder.write("scene.toml", hompm::scene_text(scene));
-  folder.write("run.json", json);
-  folder.write("timing.json", hompm::timing_json(*result, seconds()));
-  folder.publish();
-
-  if (!quiet) {
-    if (given.count("json"))
-      std::cout << json;
-    else
-      std::cout << hompm::run_summary(report) << "  files     " << folder.path().string() << "\n";
-  }
-  if (given.count("check"))
-    return check_against(given["check"].as<std::string>(), folder.path(), quiet || given.count("json"));
-  return hompm::cli::success;
+          "IEEE 754 says, 128 + n stopped by signal n.\n"};
 }
 
 int run(const po::variables_map& given) {
@@ -217,15 +92,15 @@ int run(const po::variables_map& given) {
   }
   std::optional<hompm::Checkpoint> from;
   if (given.count("resume")) from = hompm::read_checkpoint(given["resume"].as<std::string>());
-  hompm::Scene scene = from && !hompm::cli::names_scene(given) ? from->scene : hompm::cli::scene_of(given);
+  hompm::Scene scene = from ? hompm::cli::resumed_scene(given, *from) : hompm::cli::scene_of(given);
   if (given.count("check")) hompm::cli::demand_same_scene(scene, given);
-  if (from) hompm::cli::demand_resumed_scene(scene, from->scene, given);
-  return run_scene(scene, given, std::move(from));
+  return hompm::cli::run_scene(std::move(scene), given, std::move(from));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  hompm::cli::catch_interruption("hompm-run");
   return hompm::cli::run_tool(this_tool(), argc, argv,
                               [](const auto& command_line) { return run(command_line.options); });
 }

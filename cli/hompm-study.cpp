@@ -20,6 +20,7 @@
 
 #include "callgrind.hpp"
 #include "common.hpp"
+#include "interruption.hpp"
 #include "study_files.hpp"
 #include "study_run.hpp"
 
@@ -75,7 +76,7 @@ hompm::cli::Tool this_tool() {
                        {"quiet", "", "print nothing but errors"}}}},
           .remarks =
               "Exit codes: 0 fine, 2 bad usage, scene or study, 4 no setting reaches the error,\n"
-              "5 cannot read or write, 130 interrupted: the same command goes on.\n"};
+              "5 cannot read or write, 128 + n stopped by signal n: the same command goes on.\n"};
 }
 
 std::string text_option(const po::variables_map& given, const char* option) {
@@ -193,14 +194,14 @@ int run_study(const StudyJob& job, const po::variables_map& given) {
   if (job.instructions && !has_callgrind() && !job.quiet)
     std::cerr << "hompm-study: valgrind is not there, so no instructions are counted\n";
   study::write_whole(job.folder / "study.toml", study::study_text(job.study));
-  catch_interruption();
+  const HeldInterruption held;
   try {
     run_points(job, workers);
     if (!advice && rounds > 0) run_times(job, rounds);
-  } catch (const Interrupted&) {
-    std::cerr << "hompm-study: interrupted with " << gathered_count(job) << " of " << job.points.size()
-              << " points run; the same command goes on from there\n";
-    return hompm::cli::interrupted;
+  } catch (const Interrupted& signal) {
+    std::cerr << "hompm-study: stopped by " << signal.name() << " with " << gathered_count(job) << " of "
+              << job.points.size() << " points run; the same command goes on from there\n";
+    return signal.exit_code();
   }
   if (advice) return advise(job, field, error, given.count("json") > 0);
   write_study_files(job);
@@ -230,12 +231,12 @@ int run(const po::variables_map& given) {
   hompm::numerics::check_floating_point();
   const bool in_parts = given.count("point") || given.count("times") || given.count("gather");
   if (!in_parts) return run_study(job, given);
-  hompm::cli::catch_interruption();
+  const hompm::cli::HeldInterruption held;
   try {
     if (given.count("point")) hompm::cli::run_point(job, point_called(job, text_option(given, "point")));
     if (given.count("times")) hompm::cli::run_times(job, rounds_of(given));
-  } catch (const hompm::cli::Interrupted&) {
-    return hompm::cli::interrupted;
+  } catch (const hompm::cli::Interrupted& signal) {
+    return signal.exit_code();
   }
   if (given.count("gather")) hompm::cli::write_study_files(job);
   return hompm::cli::success;
@@ -244,6 +245,7 @@ int run(const po::variables_map& given) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hompm::cli::catch_interruption("hompm-study");
   return hompm::cli::run_tool(this_tool(), argc, argv,
                               [](const auto& command_line) { return run(command_line.options); });
 }

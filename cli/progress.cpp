@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 namespace hompm::cli {
 
-ProgressBar::ProgressBar(bool quiet) : active_(!quiet && isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(bool quiet, std::string what, std::int64_t from)
+    : active_(!quiet && isatty(STDERR_FILENO) == 1), what_(std::move(what)), from_(from) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) std::fputs("\r\033[K", stderr);
@@ -25,11 +27,13 @@ void ProgressBar::update(std::int64_t step, std::int64_t steps) {
 
 void ProgressBar::draw(std::int64_t step, std::int64_t steps, double elapsed) {
   constexpr int width = 40;
+  constexpr std::int64_t one = 1;
   const double part = static_cast<double>(step) / static_cast<double>(steps);
   const auto filled = static_cast<std::size_t>(part * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  std::fprintf(stderr, "\r[%s] %3.0f %%, %.0f s left \033[K", bar.c_str(), 100.0 * part,
-               elapsed / part - elapsed);
+  const double left = static_cast<double>(steps - step) / static_cast<double>(std::max(step - from_, one));
+  std::fprintf(stderr, "\r%s[%s] %3.0f %%, %.0f s left \033[K", what_.c_str(), bar.c_str(), 100.0 * part,
+               elapsed * left);
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace hompm::cli {
 
 class ProgressBar {
  public:
-  explicit ProgressBar(bool quiet);
+  /// `what` stands in front of the bar; the work begins after `from` steps, which cost nothing now.
+  explicit ProgressBar(bool quiet, std::string what = "", std::int64_t from = 0);
   /// Erases the bar, so that what is printed next stands alone.
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -22,6 +24,8 @@ class ProgressBar {
   void draw(std::int64_t step, std::int64_t steps, double elapsed);
 
   bool active_;
+  std::string what_;
+  std::int64_t from_;
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_ + std::chrono::seconds(1);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/number.hpp>
 #include <hompm/scene_file/reader.hpp>
 
 #include "common.hpp"
@@ -61,11 +62,6 @@ std::string first_different_line(const std::string& here, const std::string& the
 
 }  // namespace
 
-bool names_scene(const po::variables_map& given) {
-  return given.count("case") || given.count("scene") || given.count("variant") ||
-         !overrides_of(given).empty();
-}
-
 Scene scene_of(const po::variables_map& given) {
   auto overrides = overrides_of(given);
   const auto text = [&](const char* option) {
@@ -76,9 +72,6 @@ Scene scene_of(const po::variables_map& given) {
   if (given.count("scene")) return load_scene(text("scene"), overrides);
   if (given.count("case")) return load_builtin(text("case"), text("variant"), overrides);
   if (given.count("check")) return load_scene(fs::path(text("check")) / "scene.toml", overrides);
-  if (given.count("resume"))
-    throw UsageError(overrides.front().option +
-                     ": --resume goes on with the scene in the checkpoint, which cannot be changed");
   throw UsageError(
       "nothing to run: name a --case (bar, column), a --scene FILE, or a golden folder to --check");
 }
@@ -94,12 +87,30 @@ void demand_same_scene(Scene& scene, const po::variables_map& given) {
                    ": a golden of another scene: " + first_different_line(mine, theirs));
 }
 
-void demand_resumed_scene(const Scene& scene, const Scene& resumed, const po::variables_map& given) {
+Scene resumed_scene(const po::variables_map& given, const Checkpoint& from) {
+  const std::string option = "--resume " + given["resume"].as<std::string>();
+  Scene scene = from.scene;
+  if (given.count("case") || given.count("scene") || given.count("variant")) {
+    scene = scene_of(given);
+  } else if (const auto overrides = overrides_of(given); !overrides.empty()) {
+    for (const Override& change : overrides)
+      if (change.key != "end_time")
+        throw UsageError(change.option +
+                         ": --resume goes on with the scene in the checkpoint, of which only "
+                         "end_time can be changed");
+    scene = parse_scene(scene_text(from.scene), "scene in the checkpoint", overrides);
+  }
+  Scene before = from.scene;
+  before.end_time = scene.end_time;
   const std::string mine = scene_text(scene);
-  const std::string theirs = scene_text(resumed);
-  if (mine == theirs) return;
-  throw UsageError("--resume " + given["resume"].as<std::string>() +
-                   ": a checkpoint of another scene: " + first_different_line(mine, theirs));
+  const std::string theirs = scene_text(before);
+  if (mine != theirs)
+    throw UsageError(option + ": a checkpoint of another scene: " + first_different_line(mine, theirs));
+  if (scene.end_time < from.scene.end_time)
+    throw UsageError(option + ": end_time = " + to_text(scene.end_time) +
+                     " is before that of the checkpoint, " + to_text(from.scene.end_time) +
+                     " s; it can only become later");
+  return scene;
 }
 
 }  // namespace hompm::cli

@@ -3,12 +3,10 @@
 
 #include <boost/program_options.hpp>
 
+#include <hompm/recorder/checkpoint.hpp>
 #include <hompm/scene/scene.hpp>
 
 namespace hompm::cli {
-
-/// The command line says something about the scene to run.
-bool names_scene(const boost::program_options::variables_map& given);
 
 /// The scene that is asked for: a case, a file, or that of a golden folder, with what the command line says
 /// about it. Throws `UsageError`, and what `load_scene` throws.
@@ -18,8 +16,8 @@ Scene scene_of(const boost::program_options::variables_map& given);
 /// not part of what is simulated: it follows the golden scene unless the command line says otherwise.
 void demand_same_scene(Scene& scene, const boost::program_options::variables_map& given);
 
-/// Throws `UsageError` when `scene` is not that of the checkpoint, `resumed`.
-void demand_resumed_scene(const Scene& scene, const Scene& resumed,
-                          const boost::program_options::variables_map& given);
+/// The scene of the checkpoint, with a later end time where the command line asks for one. Throws
+/// `UsageError` when the command line names another scene, and what `load_scene` throws.
+Scene resumed_scene(const boost::program_options::variables_map& given, const Checkpoint& from);
 
 }  // namespace hompm::cli

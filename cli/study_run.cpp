@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <exception>
 #include <iostream>
 #include <mutex>
@@ -14,12 +13,11 @@
 #include <hompm/study/outcome.hpp>
 
 #include "callgrind.hpp"
+#include "interruption.hpp"
 #include "progress.hpp"
 
 namespace hompm::cli {
 namespace {
-
-volatile std::sig_atomic_t stop_asked = 0;
 
 bool has_record(const StudyJob& job, const study::Point& point, const std::string& program) {
   const auto text = study::text_of(study::record_path(job.folder, point.name));
@@ -57,18 +55,6 @@ study::Times times_so_far(const StudyJob& job, const study::Record& record) {
 }
 
 }  // namespace
-
-void catch_interruption() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_asked = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
-
-void check_interruption() {
-  if (stop_asked != 0) throw Interrupted();
-}
 
 bool run_point(const StudyJob& job, const study::Point& point) {
   const std::string program = program_id();

@@ -9,14 +9,6 @@
 
 namespace hompm::cli {
 
-/// SIGINT or SIGTERM came.
-class Interrupted {};
-
-/// Makes SIGINT and SIGTERM set a flag; a second one ends the program at once.
-void catch_interruption();
-/// Throws `Interrupted` once the flag is set.
-void check_interruption();
-
 struct StudyJob {
   study::Study study;
   std::vector<study::Point> points;

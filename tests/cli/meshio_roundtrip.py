@@ -7,6 +7,7 @@ Exit code 0: all the same; 1: a difference, named; 2: bad usage; 77: meshio is n
 """
 
 import csv
+import math
 import pathlib
 import struct
 import sys
@@ -35,12 +36,17 @@ def read_csv(path):
     return times
 
 
+def readable(value):
+    """What a .vtu holds: 0 of its sign for a subnormal number."""
+    return math.copysign(0.0, value) if abs(value) < sys.float_info.min else value
+
+
 def same(where, found, expected):
     """The complaint about two lists of numbers, or nothing."""
     if len(found) != len(expected):
         return [f"{where}: {len(found)} values, not {len(expected)}"]
     return [f"{where}, particle {i}: {a!r}, not {b!r}"
-            for i, (a, b) in enumerate(zip(found, expected)) if bits(a) != bits(b)][:1]
+            for i, (a, b) in enumerate(zip(found, expected)) if bits(a) != bits(readable(b))][:1]
 
 
 def check_snapshot(path, time, particles, stress):
@@ -49,7 +55,7 @@ def check_snapshot(path, time, particles, stress):
     faults = same(f"{path}: TimeValue", list(mesh.field_data.get("TimeValue", [])), [time])
     for axis, expected in enumerate((particles["x"], [0.0] * len(particles["x"]), [0.0] * len(particles["x"]))):
         faults += same(f"{path}: coordinate {axis}", mesh.points[:, axis], expected)
-    expected = {name: particles[name] for name in ("displacement", "velocity", "volume", "density")}
+    expected = {name: particles[name] for name in ("particle", "displacement", "velocity", "volume", "density")}
     expected.update({name: stress[name] for name in ("stress", "stretch")})
     if set(mesh.point_data) != set(expected):
         return faults + [f"{path}: point data {sorted(mesh.point_data)}, not {sorted(expected)}"]

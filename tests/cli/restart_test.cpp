@@ -96,7 +96,9 @@ TEST_CASE("what cannot be resumed: a reason, exit 2 or 5, nothing written") {
         Refused{"bad", "cannot resume from bad: it is damaged", 5},
         Refused{"scene.toml", "cannot resume from scene.toml: it is not a checkpoint of hompm", 5},
         Refused{"none", "cannot read none: No such file", 5},
-        Refused{"good --cells 9", "--cells 9: --resume goes on with the scene in the checkpoint", 2},
+        Refused{"good --cells 9",
+                "--cells 9: --resume goes on with the scene in the checkpoint, of which only end_time", 2},
+        Refused{"good --end-time 0.1", "end_time = 0.1 is before that of the checkpoint, 0.2 s", 2},
         Refused{"good --case bar --cells 9 --end-time 0.2 --snapshots 5",
                 "another scene: here `cells = 9`, there `cells = 8`", 2},
         Refused{"good --case column", "a checkpoint of another scene", 2}}) {
@@ -145,5 +147,5 @@ TEST_CASE("a second run that wants the same checkpoint is refused while the firs
                   "/checkpoint.hompm ]; do sleep 0.005; done; " + tool + scene +
                   " --checkpoint 10 --output " + out + "; code=$?; kill -KILL $run; wait $run; exit $code");
   CHECK(done.exit_code == 5);
-  CHECK_THAT(done.err, contains("another run is writing its own there"));
+  CHECK_THAT(done.err, contains("another run is writing there"));
 }

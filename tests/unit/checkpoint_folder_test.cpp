@@ -1,10 +1,10 @@
 // Checkpoints in a run folder: a full disk, two runs at once, and what killed runs leave over.
 #include <filesystem>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/output/folder_lock.hpp>
 #include <hompm/output/run_folder.hpp>
 #include <hompm/recorder/checkpoint_writer.hpp>
 
@@ -78,29 +78,15 @@ TEST_CASE("the checkpoint is there until the run is complete, whatever fails") {
   CHECK(read_file(scratch / hompm::checkpoint_name) == "bytes");
 }
 
-TEST_CASE("two runs cannot write their checkpoints to one folder at the same time") {
-  const TemporaryFolder scratch;
-  {
-    RunFolder first(scratch.path(), false);
-    first.reserve_checkpoint();
-    RunFolder second(scratch.path(), false);  // without checkpoints: as before
-    CHECK(message_of<hompm::FileError>([&] { second.reserve_checkpoint(); }) ==
-          "cannot write checkpoints in " + scratch.path().string() +
-              ": another run is writing its own there; choose another --output");
-  }
-  RunFolder(scratch.path(), false).reserve_checkpoint();
-}
-
-TEST_CASE("what a killed run left over goes with the next run, what a live one writes stays") {
+TEST_CASE("what a killed run left over goes with the next run") {
   const TemporaryFolder scratch;
   write_file(scratch / ".hompm-partial-1/vtk/snapshot_0000.vtu", "left over");
-  fs::create_directory(scratch / ".hompm-partial-2");
-  const hompm::detail::FolderLock alive(scratch / ".hompm-partial-2");
-  CHECK(alive.held());
-  { const RunFolder run(scratch.path(), false); }
-  CHECK_FALSE(fs::exists(scratch / ".hompm-partial-1"));
-  CHECK(fs::exists(scratch / ".hompm-partial-2"));
-  const hompm::detail::FolderLock none(scratch / "nothing");
-  CHECK_FALSE(none.held());
-  CHECK_FALSE(none.taken());
+  write_file(scratch / ".hompm-lock", "");
+  const auto mine = ".hompm-partial-" + std::to_string(::getpid());
+  {
+    const RunFolder run(scratch.path(), false);
+    CHECK_FALSE(fs::exists(scratch / ".hompm-partial-1"));
+    CHECK(fs::exists(scratch / mine));
+  }
+  CHECK(fs::is_empty(scratch.path()));
 }

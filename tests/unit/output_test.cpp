@@ -144,17 +144,22 @@ TEST_CASE("publishing replaces the earlier run and nothing else", "[output]") {
   for (const auto& name : mine) CHECK(read_file(folder / name) == "mine");
 }
 
-TEST_CASE("two runs at a time in one folder do not mix", "[output]") {
+TEST_CASE("of two runs at a time in one folder the second is refused", "[output]") {
   const TemporaryFolder folder;
+  const auto link = folder / "link";
+  fs::create_directory_symlink(folder.path(), link);
   RunFolder first(folder.path(), false);
-  {
-    RunFolder second(folder.path(), false);
-    second.write(sample_snapshot(2.0, 2));
-  }
+  for (const auto& same : {folder.path(), link})
+    CHECK(message_of<hompm::FileError>([&] { RunFolder(same, false); }) ==
+          "cannot write in " + same.string() +
+              ": another run is writing there; wait for it, or choose another --output");
+  { const RunFolder other(folder / "below", false); }
   first.write(sample_snapshot(1.0, 1));
   first.publish();
   CHECK(contains(read_file(folder / "particles.csv"), "\n1,0,"));
-  CHECK_FALSE(contains(read_file(folder / "particles.csv"), "\n2,0,"));
+  CHECK(first.earlier_run() == "particles.csv");
+  first.replace("run.json", "{}");  // of what was published; still under the lock
+  CHECK(first.earlier_run() == "run.json");
 }
 
 TEST_CASE("an invalid run keeps its last valid snapshot and nothing that looks like a result", "[output]") {

@@ -3,30 +3,34 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <utility>
 
+#include <hompm/error.hpp>
 #include <hompm/output/folder_lock.hpp>
 
 namespace hompm::detail {
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0) return;
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    taken_ = errno == EWOULDBLOCK;
-    return;
+FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".hompm-lock") {
+  for (;;) {
+    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ < 0) throw FileError("write in", folder, errno);
+    exclusive_ = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+    const bool taken = !exclusive_ && errno == EWOULDBLOCK;
+    struct stat locked {};
+    struct stat named {};
+    // The one who held it may have removed the file since it was opened: then it locks nothing.
+    const bool there = ::fstat(descriptor_, &locked) == 0 && ::lstat(file_.c_str(), &named) == 0 &&
+                       locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+    if (there && !taken) return;
+    ::close(descriptor_);
+    if (there)
+      throw FileError("cannot write in " + folder.string() +
+                      ": another run is writing there; wait for it, or choose another --output");
   }
-  struct stat locked {};
-  struct stat named {};
-  held_ = ::fstat(descriptor_, &locked) == 0 && ::stat(folder.c_str(), &named) == 0 &&
-          locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
 FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  ::unlink(file_.c_str());
+  ::close(descriptor_);
 }
-
-FolderLock::FolderLock(FolderLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), held_(other.held_), taken_(other.taken_) {}
 
 }  // namespace hompm::detail

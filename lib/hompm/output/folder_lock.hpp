@@ -1,28 +1,28 @@
-// Tells whether another process is at work in a folder.
+// Keeps two processes from writing into one folder.
 #pragma once
 
 #include <filesystem>
 
 namespace hompm::detail {
 
-/// An exclusive lock on a folder (flock), for as long as the object lives and at most as the process does. It
-/// keeps nobody out who does not ask.
+/// An exclusive lock on a folder (flock of a hidden file in it, which also network file systems can do), for
+/// as long as the object lives and at most as the process does. It keeps nobody out who does not ask.
 class FolderLock {
  public:
+  /// Throws `FileError` where somebody else holds it, and where the file cannot be had. On a file system
+  /// without locks everybody holds it.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
-  FolderLock(FolderLock&& other) noexcept;
-  FolderLock& operator=(FolderLock&&) = delete;
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
 
-  /// This object holds the lock, and the folder is still in its place.
-  [[nodiscard]] bool held() const { return held_; }
-  /// Somebody else holds it. Neither this nor `held` where the file system knows no locks.
-  [[nodiscard]] bool taken() const { return taken_; }
+  /// Nobody else can hold it.
+  [[nodiscard]] bool exclusive() const { return exclusive_; }
 
  private:
-  int descriptor_;
-  bool held_ = false;
-  bool taken_ = false;
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  bool exclusive_ = false;
 };
 
 }  // namespace hompm::detail

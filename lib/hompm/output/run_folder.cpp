@@ -93,7 +93,6 @@ class RunFolder::Contents {
   detail::TextFile history = staging.create("history.csv");
   bool with_vtk;
   std::vector<double> vtk_times;
-  std::optional<detail::FolderLock> reserved;
   bool whole = true;  // no write failed half-way
 
   /// Does `work`; should it throw, the files are no longer a whole run.
@@ -143,15 +142,19 @@ void RunFolder::write(const std::string& name, const std::string& text) {
   });
 }
 
-void RunFolder::reserve_checkpoint() {
-  contents_->reserved.emplace(path());
-  if (contents_->reserved->taken())
-    throw FileError("cannot write checkpoints in " + path().string() +
-                    ": another run is writing its own there; choose another --output");
+std::string RunFolder::earlier_run() const {
+  std::error_code ignored;
+  for (const char* name : own_names)
+    if (fs::exists(fs::symlink_status(path() / name, ignored))) return name;
+  return "";
 }
 
 void RunFolder::write_checkpoint(std::string_view bytes) {
   contents_->staging.replace(checkpoint_name, bytes);
+}
+
+void RunFolder::replace(const std::string& name, const std::string& text) {
+  contents_->staging.replace(name, text);
 }
 
 void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
@@ -171,7 +174,7 @@ void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
   remove_file(staging.path() / checkpoint_name);
 }
 
-void RunFolder::publish() {
+void RunFolder::publish(bool keep_checkpoint) {
   auto& staging = contents_->staging;
   contents_->change([&] {
     contents_->particles.close();
@@ -187,7 +190,8 @@ void RunFolder::publish() {
     const bool has_summary = names.erase("run.json") > 0;
     for (const auto& name : names) staging.move_into_place(name);
     if (has_summary) staging.move_into_place("run.json");
-    remove_file(staging.path() / checkpoint_name);  // last: until here a kill must find it
+    if (!keep_checkpoint)
+      remove_file(staging.path() / checkpoint_name);  // last: until here a kill must find it
   });
   contents_->whole = false;  // published: nothing more to write
 }

@@ -19,10 +19,10 @@ inline constexpr const char* checkpoint_name = "checkpoint.hompm";
 /// ignores SIGXFSZ.
 class RunFolder {
  public:
-  /// Creates `folder` (and its parents) and a staging folder inside it. Throws `FileError` naming the path
-  /// and the reason when that is impossible. With `vtk`, snapshots are also written as vtk/*.vtu with
-  /// run.pvd. With `several_bodies`, which the snapshots must then name, the tables of particles have a
-  /// column `body`.
+  /// Creates `folder` (and its parents) and a staging folder inside it; nobody else can write there as long
+  /// as the object lives. Throws `FileError` naming the path and the reason when that is impossible, or
+  /// somebody else is writing there. With `vtk`, snapshots are also written as vtk/*.vtu with run.pvd. With
+  /// `several_bodies`, which the snapshots must then name, the tables of particles have a column `body`.
   RunFolder(std::filesystem::path folder, bool vtk, bool several_bodies = false);
   /// Removes what `publish` did not move into place, and the folders the constructor created if they are
   /// empty.
@@ -39,9 +39,10 @@ class RunFolder {
   /// `FileError`.
   void write(const std::string& name, const std::string& text);
 
-  /// From here on other runs that ask are refused. Throws `FileError` when another run has asked before and
-  /// is under way.
-  void reserve_checkpoint();
+  /// A file that an earlier run left in the folder, run.json if there is one; "" where there is none. A
+  /// checkpoint counts for nothing.
+  [[nodiscard]] std::string earlier_run() const;
+
   /// Puts a checkpoint into the folder at once, whole and on the disk, over an older one; `publish` and
   /// `keep_invalid` remove it as the last thing they do. Throws `FileError`: the older one is then untouched,
   /// and the run can go on.
@@ -55,9 +56,12 @@ class RunFolder {
 
   /// Removes what an earlier run left under names of its own, run.json first, then renames all files into
   /// place, run.json last: a folder with a run.json holds one complete run. Files of other names are not
-  /// touched. Throws `FileError`; `Error` when an earlier call failed, for what is there is then not a whole
-  /// run.
-  void publish();
+  /// touched. The checkpoint goes, unless it is to stay. Throws `FileError`; `Error` when an earlier call
+  /// failed, for what is there is then not a whole run.
+  void publish(bool keep_checkpoint = false);
+  /// Replaces a whole file of the run that was published by this object, at once. Throws `FileError`: the
+  /// older one is then untouched.
+  void replace(const std::string& name, const std::string& text);
 
   [[nodiscard]] const std::filesystem::path& path() const;
 

@@ -111,11 +111,13 @@ std::string run_json(const RunReport& report) {
   return json.dump(2) + "\n";
 }
 
-std::string timing_json(const RunResult& result, double seconds) {
+std::string timing_json(const RunResult& result, double seconds, std::optional<double> reference_seconds) {
   const double particle_steps = static_cast<double>(result.steps) * static_cast<double>(result.final.size());
-  return Json{{"seconds", seconds}, {"nanoseconds_per_particle_and_step", seconds * 1e9 / particle_steps}}
-             .dump(2) +
-         "\n";
+  Json json{{"seconds", seconds},
+            {"nanoseconds_per_particle_and_step", seconds * 1e9 / particle_steps},
+            {"reference_seconds", nullptr}};
+  if (reference_seconds) json["reference_seconds"] = *reference_seconds;
+  return json.dump(2) + "\n";
 }
 
 std::string run_summary(const RunReport& report) {

@@ -22,8 +22,10 @@ struct RunReport {
 /// run.json as text, one key a line.
 std::string run_json(const RunReport& report);
 
-/// timing.json as text: what the run took on the wall clock, the one output that differs from run to run.
-std::string timing_json(const RunResult& result, double seconds);
+/// timing.json as text: what the run and, where it was computed, its reference solution took on the wall
+/// clock (s), the one output that differs from run to run.
+std::string timing_json(const RunResult& result, double seconds,
+                        std::optional<double> reference_seconds = {});
 
 /// A dozen lines for a terminal.
 std::string run_summary(const RunReport& report);

@@ -31,36 +31,28 @@ void sync_folder(const fs::path& folder) {
 
 constexpr const char* staging_prefix = ".hompm-partial-";
 
-/// Removes the staging folders of runs that were killed: those that no process has locked.
+/// Removes the staging folders of runs that were killed: all, for nobody else is at work here.
 void remove_left_over(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code ignored;
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored))
     if (entry->path().filename().string().starts_with(staging_prefix)) found.push_back(entry->path());
-  for (const auto& path : found) {
-    const FolderLock lock(path);
-    if (lock.held()) fs::remove_all(path, ignored);
-  }
+  for (const auto& path : found) fs::remove_all(path, ignored);
 }
 
-}  // namespace
-
-Staging Staging::create(const fs::path& folder) {
-  // A number is appended when another run of the same process id, in another container, has one here.
+/// A new one. A number is appended where a process of the same id, in another container, has one.
+fs::path create_staging(const fs::path& folder) {
   const fs::path base = folder / (staging_prefix + std::to_string(::getpid()));
   fs::path path = base;
-  for (int copy = 1;; ++copy) {
-    if (create_folder(path)) {
-      FolderLock lock(path);
-      // Another run may take it for left over, until it is locked.
-      std::error_code ignored;
-      if (lock.held() || (!lock.taken() && fs::exists(path, ignored))) return {path, std::move(lock)};
-    }
+  for (int copy = 1; !create_folder(path); ++copy) {
     path = base;
     path += '-';  // "-" + std::to_string(copy) makes g++ 12 -O3 warn of an overlap (GCC bug 105651)
     path += std::to_string(copy);
   }
+  return path;
 }
+
+}  // namespace
 
 CreatedFolders::CreatedFolders(const fs::path& folder) {
   if (folder.empty()) throw FileError("the name of the output folder is empty");
@@ -86,17 +78,18 @@ void CreatedFolders::remove_empty() {
 }
 
 StagingFolder::StagingFolder(fs::path folder)
-    : folder_(std::move(folder)), created_(folder_), staging_(Staging::create(folder_)) {
-  remove_left_over(folder_);
+    : folder_(std::move(folder)), created_(folder_), lock_(folder_) {
+  if (lock_.exclusive()) remove_left_over(folder_);
+  staging_ = create_staging(folder_);
 }
 
 StagingFolder::~StagingFolder() {
   std::error_code ignored;
-  fs::remove_all(staging_.path, ignored);
+  fs::remove_all(staging_, ignored);
 }
 
 TextFile StagingFolder::create(const std::string& name) {
-  const fs::path path = staging_.path / name;
+  const fs::path path = staging_ / name;
   create_folder(path.parent_path());
   names_.insert(name);
   return TextFile(path, folder_ / name);
@@ -105,8 +98,7 @@ TextFile StagingFolder::create(const std::string& name) {
 void StagingFolder::move_into_place(const std::string& name) {
   const fs::path target = folder_ / name;
   create_folder(target.parent_path());
-  if (std::rename((staging_.path / name).c_str(), target.c_str()) != 0)
-    throw FileError("write", target, errno);
+  if (std::rename((staging_ / name).c_str(), target.c_str()) != 0) throw FileError("write", target, errno);
   names_.erase(name);
 }
 
@@ -119,7 +111,7 @@ void StagingFolder::replace(const std::string& name, std::string_view content) {
     sync_folder(folder_);
   } catch (const FileError&) {
     std::error_code ignored;
-    fs::remove(staging_.path / name, ignored);  // gives the disk its space back
+    fs::remove(staging_ / name, ignored);  // gives the disk its space back
     names_.erase(name);
     throw;
   }

@@ -25,17 +25,12 @@ class CreatedFolders {
   std::vector<std::filesystem::path> created_;
 };
 
-/// The hidden folder of one process, locked: a run that finds one without a lock knows that it was left over.
-struct Staging {
-  static Staging create(const std::filesystem::path& folder);
-  std::filesystem::path path;
-  FolderLock lock;
-};
-
-/// A folder and, inside it, the hidden one in which files wait to be moved; the latter goes with the object.
+/// A folder, which nobody else can have as long as the object lives, and inside it the hidden one in which
+/// files wait to be moved; the latter goes with the object.
 class StagingFolder {
  public:
-  /// Removes what killed runs left over. Throws `FileError` when one of the two folders cannot be created.
+  /// Removes what killed runs left over. Throws `FileError` when one of the two folders cannot be created,
+  /// and when another process has the folder.
   explicit StagingFolder(std::filesystem::path folder);
   ~StagingFolder();
   StagingFolder(const StagingFolder&) = delete;
@@ -57,7 +52,8 @@ class StagingFolder {
  private:
   std::filesystem::path folder_;
   CreatedFolders created_;
-  Staging staging_;
+  FolderLock lock_;
+  std::filesystem::path staging_;
   std::set<std::string> names_;
 };
 

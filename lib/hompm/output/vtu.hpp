@@ -13,8 +13,8 @@ namespace hompm::detail {
 std::string vtu_name(std::size_t index);
 
 /// The particles as vertex cells at (x, 0, 0) with their fields as point data and the time as `TimeValue`.
-/// ASCII with the shortest text of each number, which both readers turn back into the same bits. Throws
-/// `FileError`, and `Error` for a value that is not finite.
+/// ASCII with the shortest text of each number, which both readers turn back into the same bits; a subnormal
+/// number is written as 0 of its sign. Throws `FileError`, and `Error` for a value that is not finite.
 void write_vtu(TextFile& file, const Snapshot& snapshot);
 
 /// The list of the snapshots, `times[i]` belonging to `vtu_name(i)`. Throws `FileError`.

@@ -112,6 +112,8 @@ Checkpoint read_content(std::string_view bytes, const std::string& source) {
   Checkpoint checkpoint = first_checkpoint(scene);
   detail::read_value(in, checkpoint.every);
   checkpoint.vtk = in.word() != 0;
+  checkpoint.keep = in.word() != 0;
+  checkpoint.errors = in.text();
   checkpoint.seconds = in.number();
   read_records(in, checkpoint);
   read_point(in, checkpoint.point);
@@ -131,6 +133,8 @@ std::string checkpoint_bytes(const Checkpoint& checkpoint) {
   rest.text(scene_text(checkpoint.scene));
   rest.word(detail::word_of(checkpoint.every));
   rest.word(checkpoint.vtk ? 1 : 0);
+  rest.word(checkpoint.keep ? 1 : 0);
+  rest.text(checkpoint.errors);
   rest.number(checkpoint.seconds);
   write_records(rest, checkpoint);
   write_point(rest, checkpoint.point);

@@ -17,14 +17,16 @@ class CheckpointError : public FileError {
 };
 
 /// Of the layout of the bytes in a checkpoint; only this one is read.
-inline constexpr std::uint64_t checkpoint_format = 2;
+inline constexpr std::uint64_t checkpoint_format = 3;
 
 /// Everything a run is and has reported so far.
 struct Checkpoint {
   Scene scene;
-  std::int64_t every = 0;  ///< steps between two checkpoints
-  bool vtk = true;         ///< vtk files were asked for
-  double seconds = 0.0;    ///< on the wall clock so far
+  std::int64_t every = 0;       ///< steps between two checkpoints
+  bool vtk = true;              ///< vtk files were asked for
+  bool keep = false;            ///< one at the end was asked for
+  std::string errors = "auto";  ///< which errors were asked for: auto, full, none
+  double seconds = 0.0;         ///< on the wall clock so far
   std::vector<HistoryRow> history;
   std::vector<Snapshot> snapshots;
   RunPoint point;

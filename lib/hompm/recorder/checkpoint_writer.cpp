@@ -9,9 +9,7 @@ CheckpointWriter::CheckpointWriter(RunFolder& folder, Checkpoint checkpoint,
     : folder_(folder),
       checkpoint_(std::move(checkpoint)),
       warn_(std::move(warn)),
-      written_(checkpoint_.point.states.front().step) {
-  folder_.reserve_checkpoint();
-}
+      written_(checkpoint_.point.states.front().step) {}
 
 void CheckpointWriter::write(const RunPoint& point, double seconds) {
   checkpoint_.point = point;

@@ -13,20 +13,21 @@ namespace hompm {
 /// the run: the one before stays, and `warn` is told, once until it succeeds again.
 class CheckpointWriter {
  public:
-  /// `checkpoint` says what does not change, and what was reported before a restart. Throws `FileError` when
-  /// another run writes its checkpoints to `folder`.
+  /// `checkpoint` says what does not change, and what was reported before a restart.
   CheckpointWriter(RunFolder& folder, Checkpoint checkpoint, std::function<void(const std::string&)> warn);
 
   void keep(const HistoryRow& row) { checkpoint_.history.push_back(row); }
   void keep(const Snapshot& snapshot) { checkpoint_.snapshots.push_back(snapshot); }
   /// `seconds` on the wall clock so far.
   void write(const RunPoint& point, double seconds);
+  /// The step of the last one in the folder, 0 for none.
+  [[nodiscard]] std::int64_t written() const { return written_; }
 
  private:
   RunFolder& folder_;
   Checkpoint checkpoint_;
   std::function<void(const std::string&)> warn_;
-  std::int64_t written_;  ///< step of the last checkpoint, 0 for none
+  std::int64_t written_;
   bool failing_ = false;
 };
 

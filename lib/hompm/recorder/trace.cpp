@@ -1,4 +1,5 @@
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,11 +35,11 @@ std::uint64_t hash_of(const Values& values) {
 
 class Trace::Recorder {
  public:
-  Recorder(const std::filesystem::path& path, const TraceOptions& options)
-      : file_(path, path), options_(options) {}
+  Recorder(const std::filesystem::path& path, const TraceOptions& options) : path_(path), options_(options) {}
 
   /// `stages` are those of all bodies and between them, in the order in which they run.
   void begin(const Scene& scene, const Simulation& simulation, std::span<const StageName> stages) {
+    file_.emplace(path_, path_);
     states_ = simulation.states();
     step_ = states_.front().step;
     const BuildInfo& build = build_info();
@@ -119,7 +120,7 @@ class Trace::Recorder {
   }
 
   void close() {
-    if (std::exchange(closed_, true)) return;
+    if (!file_ || std::exchange(closed_, true)) return;
     const std::uint64_t size = written_ + out_.bytes.size();
     detail::Hash hash = hash_;
     detail::add_bytes(hash, out_.bytes);
@@ -127,7 +128,7 @@ class Trace::Recorder {
     out_.word<2>(detail::trace_end);
     out_.word(hash.value());
     flush(out_.bytes.size());
-    file_.close();
+    file_->close();
   }
 
  private:
@@ -153,12 +154,25 @@ class Trace::Recorder {
   void flush(std::size_t size) {
     const std::string_view part = std::string_view(out_.bytes).substr(0, size);
     detail::add_bytes(hash_, part);
-    file_ << part;
+    try {
+      *file_ << part;
+    } catch (const FileError&) {
+      remove();
+      throw;
+    }
     written_ += size;
     out_.bytes.erase(0, size);
   }
 
-  detail::TextFile file_;
+  /// What could not be written whole is not left behind; a pipe or a device is not ours to remove.
+  void remove() {
+    closed_ = true;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::remove(path_, ignored);
+  }
+
+  std::filesystem::path path_;
+  std::optional<detail::TextFile> file_;
   TraceOptions options_;
   detail::ByteWriter out_;
   detail::Hash hash_;

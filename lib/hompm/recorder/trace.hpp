@@ -19,16 +19,15 @@ struct TraceOptions {
 /// (docs/tracing.md has the format). A run without one is not touched.
 class Trace {
  public:
-  /// Opens the file. Throws `FileError`.
   explicit Trace(const std::filesystem::path& path, const TraceOptions& options = {});
   /// Ends the trace as far as that is possible.
   ~Trace();
   Trace(const Trace&) = delete;
   Trace& operator=(const Trace&) = delete;
 
-  /// Begins with the states that `simulation` has, and adds a stage of its own behind each stage of its plans
-  /// and each of its couplings; they need this object as long as they run, and throw `FileError`. To be
-  /// called once.
+  /// Opens the file, begins with the states that `simulation` has, and adds a stage of its own behind each
+  /// stage of its plans and each of its couplings; they need this object as long as they run, and throw
+  /// `FileError`, the file then being gone. To be called once.
   void attach(const Scene& scene, Simulation& simulation);
   /// Ends the trace. Throws `FileError`.
   void close();

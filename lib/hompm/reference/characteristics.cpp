@@ -120,8 +120,9 @@ Crossing extrapolated(std::array<Crossing, levels> value) {
 
 class Column {
  public:
-  Column(const GasColumn& column, std::size_t n)
+  Column(const GasColumn& column, std::size_t n, ReferenceWatch watch)
       : column_(column),
+        watch_(std::move(watch)),
         n_(n),
         nets_{Net(column, n), Net(column, 2 * n), Net(column, 4 * n), Net(column, 8 * n)} {
     store();
@@ -165,6 +166,7 @@ class Column {
         throw Error("no smooth reference solution exists beyond t = " + to_text(shock) + " s: a shock forms");
       }
       if (rows_.size() % n_ == 1 && rows_.back().front().time >= time) return;
+      if (watch_) watch_(rows_.back().front().time / time);
       for (std::size_t level = 0; level < nets_.size(); ++level) {
         for (std::size_t i = 0; i < std::size_t{1} << level; ++i) nets_[level].advance();
       }
@@ -199,6 +201,7 @@ class Column {
   Labels refine(double time, double X, const Labels& labels, Crossing& found) const;
 
   GasColumn column_;
+  ReferenceWatch watch_;
   std::size_t n_;
   std::array<Net, 4> nets_;
   std::vector<std::vector<Crossing>> rows_;  // of the coarsest net, extrapolated
@@ -265,8 +268,8 @@ Column::Labels Column::refine(double time, double X, const Labels& labels, Cross
 
 }  // namespace
 
-FieldsAt gas_column(const GasColumn& column, int curves) {
-  auto solution = std::make_shared<Column>(column, static_cast<std::size_t>(curves));
+FieldsAt gas_column(const GasColumn& column, int curves, const ReferenceWatch& watch) {
+  auto solution = std::make_shared<Column>(column, static_cast<std::size_t>(curves), watch);
   return [solution](double time, std::span<const double> X) { return solution->at(time, X); };
 }
 

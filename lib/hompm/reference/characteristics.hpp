@@ -28,6 +28,6 @@ struct GasColumn {
 ///
 /// `curves` ≥ 8. The function throws `Error` when time decreases, and when it is asked for a time at which
 /// curves of one family have met: a shock has formed, and no smooth solution exists.
-FieldsAt gas_column(const GasColumn& column, int curves);
+FieldsAt gas_column(const GasColumn& column, int curves, const ReferenceWatch& watch = {});
 
 }  // namespace hompm

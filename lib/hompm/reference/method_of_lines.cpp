@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 
@@ -21,8 +22,10 @@ class Lines {
  public:
   using State = std::vector<double>;  // displacements of all nodes, then velocities
 
-  Lines(const Law& law, const Scene& scene, const Loads& loads, const Resolution& resolution)
+  Lines(const Law& law, const Scene& scene, const Loads& loads, const Resolution& resolution,
+        ReferenceWatch watch)
       : law_(law),
+        watch_(std::move(watch)),
         density_(scene.material.density),
         loads_(loads),
         ends_(scene.ends),
@@ -54,6 +57,8 @@ class Lines {
       }
     }
     for (double& entry : inverse_mass_) entry = 1.0 / entry;
+    if (ends_.left == End::fixed) state_[nodes_] = 0.0;  // whatever the field at the start says
+    if (ends_.right == End::fixed) state_[2 * nodes_ - 1] = 0.0;
   }
 
   /// The right-hand side, as odeint calls it.
@@ -103,7 +108,9 @@ class Lines {
 
   void advance(double time) {
     if (time < time_) throw Error("the reference solution cannot go back in time");
+    const double from = time_;
     while (time_ < time) {
+      if (watch_) watch_((time_ - from) / (time - from));
       const double steps = std::ceil((time - time_) / stable_step());
       const double step = (time - time_) / steps;
       stepper_.do_step(std::ref(*this), state_, time_, step);
@@ -153,6 +160,7 @@ class Lines {
   }
 
   Law law_;
+  ReferenceWatch watch_;
   double density_;
   Loads loads_;
   Ends ends_;
@@ -189,10 +197,12 @@ Resolution suitable_resolution(const Scene& scene, const Loads& loads) {
   return smooth ? Resolution{8 + 8 * mode, 12, 0.25} : Resolution{std::max(96, 8 * mode), 4, 1.0};
 }
 
-FieldsAt method_of_lines(const Scene& scene, const Loads& loads, const Resolution& resolution) {
+FieldsAt method_of_lines(const Scene& scene, const Loads& loads, const Resolution& resolution,
+                         const ReferenceWatch& watch) {
   return std::visit(
       [&](const auto& law) -> FieldsAt {
-        auto lines = std::make_shared<Lines<std::decay_t<decltype(law)>>>(law, scene, loads, resolution);
+        auto lines =
+            std::make_shared<Lines<std::decay_t<decltype(law)>>>(law, scene, loads, resolution, watch);
         return [lines](double time, std::span<const double> X) { return lines->at(time, X); };
       },
       make_material(scene.material));

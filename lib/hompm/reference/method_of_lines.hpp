@@ -23,6 +23,7 @@ Resolution suitable_resolution(const Scene& scene, const Loads& loads);
 /// ascending, in the body). It throws `Error` when time decreases, and when the material turns inside out or
 /// gives way: beyond that time no smooth solution exists. A shock alone does not stop it; it shows in the
 /// distance between two resolutions.
-FieldsAt method_of_lines(const Scene& scene, const Loads& loads, const Resolution& resolution);
+FieldsAt method_of_lines(const Scene& scene, const Loads& loads, const Resolution& resolution,
+                         const ReferenceWatch& watch = {});
 
 }  // namespace hompm

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <hompm/reference/characteristics.hpp>
 #include <hompm/reference/closed_forms.hpp>
+#include <hompm/reference/kelvin_voigt.hpp>
 #include <hompm/reference/loads.hpp>
 #include <hompm/reference/method_of_lines.hpp>
 #include <hompm/reference/reference.hpp>
@@ -15,6 +17,33 @@ namespace {
 
 Reference exact(std::string description, FieldsAt at) {
   return {std::move(description), std::move(at), [] { return ReferenceErrors{}; }};
+}
+
+void append(const std::vector<double>& more, std::vector<double>& to) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+/// The same fields, computed for some points at a time.
+FieldsAt watched(FieldsAt at, const ReferenceWatch& watch) {
+  if (!watch) return at;
+  return [at = std::move(at), watch](double time, std::span<const double> X) {
+    constexpr std::size_t portion = 4096;
+    ReferenceFields fields;
+    for (std::size_t first = 0; first < X.size(); first += portion) {
+      watch(static_cast<double>(first) / static_cast<double>(X.size()));
+      const auto some = at(time, X.subspan(first, std::min(portion, X.size() - first)));
+      append(some.displacement, fields.displacement);
+      append(some.velocity, fields.velocity);
+      append(some.stress, fields.stress);
+    }
+    return fields;
+  };
+}
+
+/// Of a solution that is the work from `from` to `to` of the whole.
+ReferenceWatch part_of(const ReferenceWatch& watch, double from, double to) {
+  if (!watch) return {};
+  return [=](double part) { watch(from + (to - from) * part); };
 }
 
 /// ‖coarse − fine‖₂ / ‖fine‖₂; 0 where the field vanishes.
@@ -66,7 +95,8 @@ FieldsAt mirrored(const FieldsAt& at, double length) {
 }
 
 /// Solutions of a body fixed on the left and free on the right, other than by the method of lines.
-std::optional<Reference> column_reference(const Scene& scene, const Loads& loads) {
+std::optional<Reference> column_reference(const Scene& scene, const Loads& loads,
+                                          const ReferenceWatch& watch) {
   const std::optional<double> weight = final_total(loads.gravity);
   const std::optional<double> pull = final_total(loads.right);
   if (scene.rest) {
@@ -90,12 +120,13 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
     const auto at = [body, b = acceleration](double time, std::span<const double> X) {
       return loaded_column(body, b, time, X);
     };
-    return exact("column of small strains, d'Alembert's solution (Tielen et al. 2017)", at);
+    return exact("column of small strains, d'Alembert's solution (Tielen et al. 2017)", watched(at, watch));
   }
   if (scene.material.law == "rate") {
     const GasColumn column{scene.body.length, scene.material.density, speed, acceleration};
     return estimated("column of large strains, method of characteristics (extrapolated net, 8th order)",
-                     gas_column(column, 32), gas_column(column, 16));
+                     gas_column(column, 32, part_of(watch, 0.0, 0.8)),
+                     gas_column(column, 16, part_of(watch, 0.8, 1.0)));
   }
   return std::nullopt;
 }
@@ -109,7 +140,8 @@ void add(const ReferenceFields& more, ReferenceFields& fields) {
   sum(more.stress, fields.stress);
 }
 
-std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads) {
+std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads,
+                                             const ReferenceWatch& watch) {
   const bool free = loads.gravity.empty() && !loads.damped();
   if (scene.material.law != "linear" || !free) return std::nullopt;
   const auto standing = [](const std::optional<InitialField>& field) {
@@ -126,11 +158,11 @@ std::optional<Reference> vibration_reference(const Scene& scene, const Loads& lo
     if (velocity) add(vibrating_bar(body, velocity->amplitude, velocity->mode, time, X), fields);
     return fields;
   };
-  return exact("vibrating bar of small strains, standing wave (Tielen et al. 2017)", at);
+  return exact("vibrating bar of small strains, standing wave (Tielen et al. 2017)", watched(at, watch));
 }
 
 /// Where the scene has the effect `manufactured` and no other.
-std::optional<Reference> manufactured_reference(const Scene& scene) {
+std::optional<Reference> manufactured_reference(const Scene& scene, const ReferenceWatch& watch) {
   if (scene.effects.size() != 1 || scene.effects.front().type != "manufactured") return std::nullopt;
   const LinearBody body{scene.body.length, scene.material.density,
                         std::sqrt(scene.material.youngs_modulus / scene.material.density)};
@@ -139,12 +171,47 @@ std::optional<Reference> manufactured_reference(const Scene& scene) {
                                                                           std::span<const double> X) {
     return manufactured_bar(body, material, amplitude, time, X);
   };
-  return exact("manufactured solution u = G sin(pi X/L) sin(pi c t/L)", at);
+  return exact("manufactured solution u = G sin(pi X/L) sin(pi c t/L)", watched(at, watch));
+}
+
+/// How many times a motion repeats itself along the body: between fixed ends, from half waves and under no
+/// load that tells left from right, each part of as many half waves as all fields have in common moves as a
+/// bar between fixed ends of its own, the odd ones as its mirror image.
+int repetitions(const Scene& scene, const Loads& loads) {
+  if (scene.ends.left != End::fixed || scene.ends.right != End::fixed || !loads.gravity.empty()) return 1;
+  int common = 0;
+  for (const auto& field : {scene.initial_velocity, scene.initial_displacement}) {
+    if (!field) continue;
+    if (field->shape != "sine") return 1;
+    common = std::gcd(common, field->mode);
+  }
+  return std::max(common, 1);
+}
+
+/// The fields of the whole body from those of its first part.
+FieldsAt repeated(const FieldsAt& part, double length) {
+  return [part, length](double time, std::span<const double> X) {
+    std::vector<double> places;
+    std::vector<double> signs;
+    for (const double x : X) {
+      const double number = std::floor(x / length);
+      const bool mirrored = number != 2.0 * std::floor(0.5 * number);
+      const double place = std::clamp(x - number * length, 0.0, length);
+      places.push_back(mirrored ? length - place : place);
+      signs.push_back(mirrored ? -1.0 : 1.0);
+    }
+    ReferenceFields fields = part(time, places);
+    for (std::size_t i = 0; i < X.size(); ++i) {
+      fields.displacement[i] *= signs[i];
+      fields.velocity[i] *= signs[i];
+    }
+    return fields;
+  };
 }
 
 /// For a body that starts at X = 0.
-std::optional<Reference> reference_at_origin(const Scene& scene) {
-  if (auto manufactured = manufactured_reference(scene)) return manufactured;
+std::optional<Reference> reference_at_origin(const Scene& scene, const ReferenceWatch& watch) {
+  if (auto manufactured = manufactured_reference(scene, watch)) return manufactured;
   const std::optional<Loads> loads = loads_of(scene);
   if (!loads) return std::nullopt;
   if (scene.kinematics == Kinematics::infinitesimal && scene.material.law != "linear") return std::nullopt;
@@ -152,27 +219,46 @@ std::optional<Reference> reference_at_origin(const Scene& scene) {
   const bool left_fixed = scene.ends.left == End::fixed;
   const bool right_fixed = scene.ends.right == End::fixed;
   std::optional<Reference> special;
-  if (left_fixed && !right_fixed) special = column_reference(scene, *loads);
+  if (left_fixed && !right_fixed) special = column_reference(scene, *loads, watch);
   if (!left_fixed && right_fixed) {
-    special = column_reference(scene, mirrored(*loads));
+    special = column_reference(scene, mirrored(*loads), watch);
     if (special) special->at = mirrored(special->at, scene.body.length);
   }
   if (left_fixed && right_fixed && !scene.rest && !loads->local_damping)
-    special = vibration_reference(scene, *loads);
+    special = vibration_reference(scene, *loads, watch);
   if (special) return special;
   if (scene.rest || loads->local_damping) return std::nullopt;
 
-  const Resolution fine = suitable_resolution(scene, *loads);
+  if (scene.material.law == "linear" && loads->viscosity > 0.0) {
+    const auto all = kelvin_voigt_bar(scene, *loads, 1.0);
+    const auto half = kelvin_voigt_bar(scene, *loads, 0.5);
+    if (all && half)
+      return estimated("bar of small strains with viscosity, sum of its modes", watched(*all, watch), *half);
+  }
+  Scene part = scene;
+  const int parts = repetitions(scene, *loads);
+  if (parts > 1) {
+    part.body.length /= parts;
+    for (auto* field : {&part.initial_velocity, &part.initial_displacement})
+      if (*field) (*field)->mode /= parts;
+  }
+  const Resolution fine = suitable_resolution(part, *loads);
   const Resolution coarse{fine.elements / 2, fine.degree, fine.step_factor};
-  return estimated("method of lines (Legendre spectral elements, Runge-Kutta)",
-                   method_of_lines(scene, *loads, fine), method_of_lines(scene, *loads, coarse));
+  FieldsAt at = method_of_lines(part, *loads, fine, part_of(watch, 0.0, 0.8));
+  FieldsAt with_half = method_of_lines(part, *loads, coarse, part_of(watch, 0.8, 1.0));
+  if (parts > 1) {
+    at = repeated(at, part.body.length);
+    with_half = repeated(with_half, part.body.length);
+  }
+  return estimated("method of lines (Legendre spectral elements, Runge-Kutta)", std::move(at),
+                   std::move(with_half));
 }
 
 }  // namespace
 
-std::optional<Reference> make_reference(const Scene& scene) {
+std::optional<Reference> make_reference(const Scene& scene, const ReferenceWatch& watch) {
   if (!scene.bodies.empty()) return std::nullopt;
-  std::optional<Reference> reference = reference_at_origin(scene);
+  std::optional<Reference> reference = reference_at_origin(scene, watch);
   if (reference && scene.body.left() != 0.0)
     reference->at = [at = reference->at, left = scene.body.left()](double time, std::span<const double> X) {
       std::vector<double> places(X.begin(), X.end());

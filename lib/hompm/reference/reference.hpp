@@ -28,6 +28,10 @@ struct ReferenceErrors {
 /// Fields at `time` (s) and reference positions `X` (m, ascending).
 using FieldsAt = std::function<ReferenceFields(double time, std::span<const double> X)>;
 
+/// Told now and then, while a reference solution is computed, which part of the work is done, 0 … 1; throws
+/// to break off. May be empty.
+using ReferenceWatch = std::function<void(double part)>;
+
 struct Reference {
   std::string description;  ///< one line: which solution, from which source
   /// Times must not decrease from call to call. Throws `Error` where they do, and where no smooth solution
@@ -40,6 +44,6 @@ struct Reference {
 
 /// The reference solution of a scene, or nothing where none is known (local damping before rest, say).
 /// The same scene gives the same bits on every machine.
-std::optional<Reference> make_reference(const Scene& scene);
+std::optional<Reference> make_reference(const Scene& scene, const ReferenceWatch& watch = {});
 
 }  // namespace hompm

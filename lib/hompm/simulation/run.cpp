@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
+#include <hompm/simulation/columns.hpp>
 #include <hompm/simulation/guards.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/simulation/step_watch.hpp>
@@ -64,6 +67,19 @@ class RestWatch {
       error.reason + "; here the time step is too large, " + to_text(step_fraction) + " of the critical one");
 }
 
+/// What is not a finite number in an output: "density of particle 3"; "" where all is.
+std::string not_finite(const Snapshot& snapshot, const HistoryRow& row) {
+  for (const auto& column : detail::all_columns) {
+    const auto& values = snapshot.*column.values;
+    const auto bad = std::ranges::find_if_not(values, [](double value) { return std::isfinite(value); });
+    if (bad != values.end())
+      return std::string(column.name) + " of particle " + std::to_string(bad - values.begin());
+  }
+  for (const auto& column : detail::history_columns)
+    if (!std::isfinite(row.*column.value)) return std::string(column.name) + " in the balances";
+  return "";
+}
+
 void accumulate(RunExtremes& result, const HistoryRow& row) {
   const auto raise = [](double& largest, double value) { largest = std::max(largest, std::abs(value)); };
   raise(result.largest_residual, row.residual);
@@ -90,8 +106,13 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     accumulate(result, result.start);
     result.largest_step_fraction = stepping.time_step / stepping.critical_time_step;
     result.largest_wave_speed = step_watch.fastest_wave(simulation.states());
+    const Snapshot start = simulation.snapshot(0.0);
+    if (const std::string bad = not_finite(start, result.start); !bad.empty())
+      throw SceneError(
+          Origin{"scene"},
+          "cannot be started: " + bad + " is not finite at t = 0; its numbers are too large or too small");
     if (observer.history) observer.history(result.start);
-    if (observer.snapshot) observer.snapshot(simulation.snapshot(0.0));
+    if (observer.snapshot) observer.snapshot(start);
   }
 
   detail::Guards guards(result.start, from != nullptr ? from->supplied : 0.0);
@@ -116,15 +137,22 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
         result.end = simulation.history(time);
         guards.check(simulation, result.end);  // before anything is reported
         accumulate(result, result.end);
+        Snapshot snapshot;
+        if (snapshot_due) snapshot = simulation.snapshot(time);
+        if (const std::string bad = not_finite(snapshot, result.end); !bad.empty())
+          throw InvalidRun(step, time, -1, bad + " is not finite");
         if (row_due && observer.history) observer.history(result.end);
-        if (last) result.final = simulation.snapshot(time);
-        if (snapshot_due && observer.snapshot)
-          observer.snapshot(last ? result.final : simulation.snapshot(time));
+        if (snapshot_due && observer.snapshot) observer.snapshot(snapshot);
+        if (last) result.final = std::move(snapshot);
       }
       if (observer.progress) observer.progress(step, stepping.steps);
-      if (observer.checkpoint_every > 0 && step % observer.checkpoint_every == 0 && !last)
+      result.stopped = !last && observer.stop && observer.stop();
+      const bool due = last ? observer.checkpoint_at_end
+                            : observer.checkpoint_every > 0 && step % observer.checkpoint_every == 0;
+      if (observer.checkpoint && (due || result.stopped))
         observer.checkpoint({simulation.states(), static_cast<const RunExtremes&>(result), guards.supplied(),
                              rest ? rest->quiet_steps() : 0});
+      if (result.stopped) break;
     }
   } catch (const InvalidRun& error) {
     throw_with_cause(error, result.largest_step_fraction);

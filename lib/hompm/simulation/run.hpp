@@ -25,6 +25,7 @@ struct RunExtremes {
 struct RunResult : RunExtremes {
   std::int64_t steps = 0;  ///< that were done
   bool at_rest = false;    ///< the run ended because the body came to rest
+  bool stopped = false;    ///< the run was stopped: there is no `final`
   HistoryRow start, end;
   Snapshot final;
 };
@@ -48,12 +49,17 @@ struct RunObserver {
   /// reported before belongs to the point.
   std::function<void(const RunPoint&)> checkpoint = {};
   std::int64_t checkpoint_every = 0;
+  bool checkpoint_at_end = false;  ///< after the last step, too
+  /// Asked after every step but the last: should the run stop there? `checkpoint`, if any, then gets the
+  /// point.
+  std::function<bool()> stop = {};
 };
 
 /// Runs a scene with the given stepping. The start is reported first, then `scene.output.snapshots` snapshots
 /// and `scene.output.history` rows evenly over the steps. Throws `SceneError` when scene and scheme do not go
-/// together, and `InvalidRun` when the run becomes invalid: what was reported before is valid. Throws
-/// `ArithmeticError` on a machine or build whose arithmetic is not IEEE 754 (numerics/floating_point.hpp).
+/// together or a value at the start is not finite, and `InvalidRun` when the run becomes invalid: what was
+/// reported before is valid. Throws `ArithmeticError` on a machine or build whose arithmetic is not IEEE 754
+/// (numerics/floating_point.hpp).
 ///
 /// With `from`, a point of an earlier run of the same scene, the run goes on from there: what is reported and
 /// returned is the rest of that run, bit for bit.

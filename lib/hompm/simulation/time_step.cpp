@@ -28,6 +28,21 @@ double asked_step(const Scene& scene, double critical) {
   return shortest;
 }
 
+struct Count {
+  std::int64_t steps;
+  bool whole;  ///< they end at the end time
+};
+
+/// How many steps it takes to the end time. A quotient within rounding of a whole number means that number:
+/// the step asked for is then kept to the bit.
+Count count_steps(const Scene& scene, double step, const Origin& origin, const std::string& key) {
+  const double count = scene.end_time / step;
+  if (!(count <= 1e10)) throw SceneError(origin, key + ": that is more than 1e10 steps to the end time");
+  const double nearest = std::floor(count + 0.5);
+  const bool whole = nearest >= 1.0 && std::abs(count - nearest) <= 1e-9 * nearest;
+  return {static_cast<std::int64_t>(whole ? nearest : std::ceil(count)), whole};
+}
+
 }  // namespace
 
 TimeStepping time_stepping(const Scene& scene) {
@@ -47,15 +62,21 @@ TimeStepping time_stepping(const Scene& scene) {
                                  to_text(result.critical_time_step) +
                                  " s (scheme.allow_unstable = true runs it all the same)");
 
-  const double count = scene.end_time / asked;
-  if (!(count <= 1e10)) throw SceneError(origin, key + ": that is more than 1e10 steps to the end time");
-  // A quotient within rounding of a whole number means that number: the step asked for is then kept to the
-  // bit.
-  const double nearest = std::floor(count + 0.5);
-  const bool whole = nearest >= 1.0 && std::abs(count - nearest) <= 1e-9 * nearest;
-  const double steps = whole ? nearest : std::ceil(count);
-  result.steps = static_cast<std::int64_t>(steps);
-  result.time_step = whole ? asked : scene.end_time / steps;
+  const Count count = count_steps(scene, asked, origin, key);
+  result.steps = count.steps;
+  result.time_step = count.whole ? asked : scene.end_time / static_cast<double>(count.steps);
+  return result;
+}
+
+TimeStepping resumed_stepping(Scene& scene, double time_step) {
+  TimeStepping result = time_stepping(scene);
+  const Count count = count_steps(scene, time_step, Origin{"end_time"}, "end_time");
+  result.steps = count.steps;
+  result.time_step = time_step;
+  if (!count.whole) {
+    scene.end_time = static_cast<double>(count.steps) * time_step;
+    for (Scene& body : scene.bodies) body.end_time = scene.end_time;
+  }
   return result;
 }
 

@@ -24,4 +24,8 @@ struct TimeStepping {
 /// more than 10¹⁰ steps. Throws `ArithmeticError` as `run` does.
 TimeStepping time_stepping(const Scene& scene);
 
+/// That of a run which goes on with the step it had (s), to an end time that may be later than it was: where
+/// that is no whole number of steps, `scene.end_time` becomes the next that is. Throws as above.
+TimeStepping resumed_stepping(Scene& scene, double time_step);
+
 }  // namespace hompm

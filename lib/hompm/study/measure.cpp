@@ -62,7 +62,7 @@ void run_and_judge(const Scene& scene, const Check& check, Measured& measured) {
   // The first step finds the geometry ready and is cheaper: it counts only where there is no other.
   if (!moments.empty()) measured.moments = std::move(moments);
   std::string reason;
-  record.errors = judge(scene, result, reason);
+  record.errors = judge(scene, result, reason, [&](double) { check(); });
   if (!record.errors) fail(record, Status::unjudged, reason);
 }
 

@@ -19,8 +19,9 @@ std::optional<ReferenceFields> detail::sound_fields(const Reference& reference, 
   return std::nullopt;
 }
 
-std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason) {
-  const std::optional<Reference> reference = make_reference(scene);
+std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason,
+                                 const ReferenceWatch& watch) {
+  const std::optional<Reference> reference = make_reference(scene, watch);
   if (!reference) {
     reason = "no reference solution is known for this scene";
     return std::nullopt;

@@ -21,8 +21,9 @@ struct ErrorReport {
 
 /// The errors of `snapshot` against the scene's reference solution; nothing where the scene has none.
 /// `reason` then says why. Throws nothing for a reference that ceases to exist (steepened to a shock): that
-/// is a reason, too.
-std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason);
+/// is a reason, too. What `watch` throws, is thrown.
+std::optional<ErrorReport> judge(const Scene& scene, const RunResult& result, std::string& reason,
+                                 const ReferenceWatch& watch = {});
 
 namespace detail {
 
