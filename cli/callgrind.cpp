@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -15,24 +14,6 @@ namespace hompm::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for one count, gone with the object.
-class Scratch {
- public:
-  Scratch() : path_((fs::temp_directory_path() / "hompm-count-XXXXXX").string()) {
-    if (::mkdtemp(path_.data()) == nullptr) throw FileError("create the folder", path_, errno);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 std::uint64_t number_after(const std::string& text, const std::string& label) {
   const auto found = text.find(label);
@@ -47,7 +28,7 @@ bool has_callgrind() {
 #else
   static const bool found = [] {
     const Scratch scratch;
-    return run_child({"valgrind", "--version"}, scratch.path() + "/log", [] {}) == 0;
+    return run_child({"valgrind", "--version"}, scratch.path() + "/out", scratch.path() + "/log", [] {}) == 0;
   }();
   return found;
 #endif
@@ -82,7 +63,7 @@ study::Instructions count_instructions(const study::Measured& measured, const st
       run_child({"env", vectors_at_any_size, "valgrind", "--tool=callgrind",
                  "--callgrind-out-file=" + scratch.path() + "/out", "--collect-atstart=no",
                  "--toggle-collect=hompm::Simulation::step()", program_path(), "--count", scratch.path()},
-                log, check);
+                log, log, check);
   const std::string said = study::text_of(log).value_or("");
   const auto counted = number_after(said, "Collected : ");
   const auto steps = number_after(said, "counted steps: ");

@@ -1,28 +1,48 @@
 #include "child.hpp"
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
+#include <filesystem>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
+#include <hompm/error.hpp>
+
 namespace hompm::cli {
 
-int run_child(std::vector<std::string> command, const std::string& log, const std::function<void()>& check) {
+Scratch::Scratch() : path_((std::filesystem::temp_directory_path() / "hompm-XXXXXX").string()) {
+  if (::mkdtemp(path_.data()) == nullptr) throw FileError("create the folder", path_, errno);
+}
+
+Scratch::~Scratch() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+int run_child(std::vector<std::string> command, const std::string& out, const std::string& log,
+              const std::function<void()>& check) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&files, 1, 2);
+  posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (out == log)
+    posix_spawn_file_actions_adddup2(&files, 2, 1);
+  else
+    posix_spawn_file_actions_addopen(&files, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   pid_t child = 0;
   const int failed = ::posix_spawnp(&child, arguments[0], &files, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
-  if (failed != 0) return 127;
+  if (failed == ENOENT) return no_such_program;
+  if (failed != 0) throw FileError("start", command.front(), failed);
   int status = 0;
   try {
     while (::waitpid(child, &status, WNOHANG) == 0) {

@@ -7,8 +7,25 @@
 
 namespace hompm::cli {
 
-/// Runs a command, its output and complaints in the file `log`; its exit code, 128 + the signal that ended
-/// it, or 127 where there is no such program. `check` is called while waiting; what it throws ends the child.
-int run_child(std::vector<std::string> command, const std::string& log, const std::function<void()>& check);
+/// A folder of its own below that for temporary files, gone with the object.
+class Scratch {
+ public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+inline constexpr int no_such_program = 127;
+
+/// Runs a command, with nothing to read, standard output in the file `out` and standard error in `log`, which
+/// may be the same; its exit code, 128 + the signal that ended it, or `no_such_program`. `check` is called
+/// while waiting; what it throws ends the child.
+int run_child(std::vector<std::string> command, const std::string& out, const std::string& log,
+              const std::function<void()>& check);
 
 }  // namespace hompm::cli

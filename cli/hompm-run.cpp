@@ -26,7 +26,7 @@ namespace po = boost::program_options;
 hompm::cli::Tool this_tool() {
   return {
       .name = "hompm-run",
-      .usage = "--case NAME | --scene FILE | --check DIR | --resume FILE [options]",
+      .usage = "--case NAME|--scene FILE|--check DIR|--resume FILE [options]",
       .about = "Runs a scene by the material point method and says how good the result is.",
       .examples = {"hompm-run --case column", "hompm-run --case bar --scheme bspline --cells 128",
                    "hompm-run --scene my.toml --set material.youngs_modulus=2e5 --output out"},
@@ -79,9 +79,9 @@ hompm::cli::Tool this_tool() {
               "write one at the end, too, and keep it: --resume with a later --end-time"},
              {"resume", "FILE", "go on from a checkpoint, in its folder unless --output is given"}}}},
       .remarks =
-          "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run became\n"
-          "invalid, 5 cannot read or write, 6 this build or process does not compute as\n"
-          "IEEE 754 says, 128 + n stopped by signal n.\n"};
+          "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run\n"
+          "became invalid, 5 cannot read or write, 6 this build or process does not\n"
+          "compute as IEEE 754 says, 128 + n stopped by signal n.\n"};
 }
 
 int run(const po::variables_map& given) {

@@ -35,7 +35,7 @@ using Json = nlohmann::ordered_json;
 
 hompm::cli::Tool this_tool() {
   return {.name = "hompm-study",
-          .usage = "--case NAME | --scene FILE | --study FILE [options]",
+          .usage = "--case NAME|--scene FILE|--study FILE [options]",
           .about = "Runs a scene with many settings and says which is the cheapest for an error.",
           .examples = {"hompm-study --case bar", "hompm-study --study my-study.toml --jobs 4",
                        "hompm-study --case bar --vary scheme,cells --vary courant=0.2,0.1"},
