@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -53,6 +54,22 @@ std::string padded(std::string text, std::size_t width) {
 std::string row(const std::string& name, const ErrorNorms& norms, const std::string& unit) {
   return "    " + padded(name, 14) + padded(brief(norms.relative_l2), 14) +
          padded(brief(norms.rms) + " " + unit, 18) + brief(norms.max) + " " + unit + "\n";
+}
+
+/// What keeps the body from rest, as far as the run has seen it.
+std::string why_no_rest(const Scene& scene, const RunResult& result) {
+  const std::string text = "not reached by the end time: ";
+  if (result.last_speed <= scene.rest->speed)
+    return text + "the particles became slow enough, but not for the time of a wave there and back";
+  const bool damped = std::ranges::any_of(bodies_of(scene), [](const Scene* body) {
+    return std::ranges::any_of(body->effects, [](const auto& spec) { return spec.type == "local-damping"; });
+  });
+  return text + "a particle moved at " + brief(result.last_speed) + " m/s in the last step, rest.speed is " +
+         brief(scene.rest->speed) + " m/s" +
+         (damped && result.to_and_fro
+              ? ";\n            it turns around from step to step, which local damping keeps "
+                "up: raise rest.speed, or take smaller steps"
+              : "");
 }
 
 std::string share(double part, double whole) { return whole > 0.0 ? brief(part / whole) : std::string("0"); }
@@ -143,8 +160,7 @@ std::string run_summary(const RunReport& report) {
       met > 1.0 && stepping.time_step <= stepping.critical_time_step)
     text += ", and the step was " + brief(met) + " of it for a while";
   text += "\n";
-  if (scene.rest)
-    text += result.at_rest ? "  rest      reached\n" : "  rest      not reached by the end time\n";
+  if (scene.rest) text += "  rest      " + (result.at_rest ? "reached" : why_no_rest(scene, result)) + "\n";
   if (report.errors) {
     const ErrorReport& errors = *report.errors;
     text += "  errors    against " + errors.reference;

@@ -29,7 +29,10 @@ class RestWatch {
  public:
   RestWatch(const Scene& scene, double time_step, const std::vector<State>& states, std::int64_t quiet_steps)
       : longest_way_(scene.rest->speed * time_step), quiet_steps_(quiet_steps) {
-    for (const State& state : states) before_.push_back(state.particles.displacement);
+    for (const State& state : states) {
+      before_.push_back(state.particles.displacement);
+      ways_.emplace_back(before_.back().size(), 0.0);
+    }
     double longest = 0.0;
     for (const Scene* body : bodies_of(scene)) {
       const double wave_speed = std::sqrt(body->material.youngs_modulus / body->material.density);
@@ -38,23 +41,34 @@ class RestWatch {
     steps_needed_ = static_cast<std::int64_t>(std::ceil(longest / time_step));
   }
   bool at_rest(const std::vector<State>& states) {
-    bool quiet = true;
+    longest_ = 0.0;
     for (std::size_t body = 0; body < before_.size(); ++body) {
       const auto& displacement = states[body].particles.displacement;
       auto& before = before_[body];
       for (std::size_t i = 0; i < before.size(); ++i) {
-        quiet = quiet && std::abs(displacement[i] - before[i]) <= longest_way_;
+        const double way = displacement[i] - before[i];
+        if (!(std::abs(way) <= longest_)) {
+          longest_ = std::abs(way);
+          to_and_fro_ = way * ways_[body][i] < 0.0;
+        }
+        ways_[body][i] = way;
         before[i] = displacement[i];
       }
     }
+    const bool quiet = longest_ <= longest_way_;
     quiet_steps_ = quiet ? quiet_steps_ + 1 : 0;
     return quiet_steps_ >= steps_needed_;
   }
   [[nodiscard]] std::int64_t quiet_steps() const { return quiet_steps_; }
+  /// Of the last step: the longest way of a particle (m), and whether that was back where it had come from.
+  [[nodiscard]] double longest() const { return longest_; }
+  [[nodiscard]] bool to_and_fro() const { return to_and_fro_; }
 
  private:
   double longest_way_;  ///< m, in one step
-  std::vector<std::vector<double>> before_;
+  std::vector<std::vector<double>> before_, ways_;
+  double longest_ = 0.0;
+  bool to_and_fro_ = false;
   std::int64_t steps_needed_;
   std::int64_t quiet_steps_;
 };
@@ -156,6 +170,10 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     }
   } catch (const InvalidRun& error) {
     throw_with_cause(error, result.largest_step_fraction);
+  }
+  if (rest) {
+    result.last_speed = rest->longest() / stepping.time_step;
+    result.to_and_fro = rest->to_and_fro();
   }
   return result;
 }
