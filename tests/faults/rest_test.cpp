@@ -18,39 +18,33 @@ hompm::Scene settled(const std::string& scheme, const std::string& degree, const
                   {{"scheme.name", scheme},
                    {"scheme.degree", degree},
                    {"scheme.cells", "8"},
-                   {"scheme.time_step", "1e-3"},
+                   {"scheme.time_step", "5e-4"},
                    {"end_time", end_time}});
 }
 
 std::string summary(const hompm::Scene& scene, const hompm::RunResult& result) {
-  const hompm::TimeStepping stepping{.time_step = 1e-3, .steps = 3, .critical_time_step = 1.0};
+  const hompm::TimeStepping stepping{.time_step = 5e-4, .steps = 3, .critical_time_step = 1.0};
   const std::optional<hompm::ErrorReport> errors;
   return hompm::run_summary({scene, stepping, result, errors, "not asked for"});
 }
 
 }  // namespace
 
-TEST_CASE(
-    "a column that settles comes to rest with every scheme, or the summary says what keeps it from that") {
-  for (const std::string scheme : {"classical", "bspline", "tielen2017", "mls", "tls", "high-order"})
-    for (const std::string degree : {"1", "2", "3"}) {
-      if ((degree == "1") == (scheme == "high-order" || scheme == "bspline")) continue;
-      if (degree == "3" && scheme == "classical") continue;
-      if (degree != "1" && scheme == "classical") continue;
+TEST_CASE("a column that settles comes to rest, or the summary says what keeps it from that") {
+  for (const std::string scheme : {"bspline", "tielen2017", "tls", "high-order"})
+    for (const std::string degree : {"2", "3"}) {
       const hompm::Scene scene = settled(scheme, degree, "15");
       const hompm::RunResult result = hompm::run(scene, hompm::time_stepping(scene));
-      INFO(scheme << degree);
-      if (result.at_rest) {
-        CHECK(result.last_speed <= scene.rest->speed);
-        CHECK_THAT(summary(scene, result), contains("rest      reached\n"));
-        continue;
-      }
+      const std::string said = summary(scene, result);
+      INFO(scheme << degree << ": " << result.last_speed);
+      const auto says = [&](const char* part) { return said.find(part) != std::string::npos; };
+      CHECK(result.at_rest == says("rest      reached\n"));
+      CHECK(result.at_rest != says(" m/s in the last step, rest.speed is 1e-06 m/s"));
+      CHECK(result.at_rest == (result.last_speed <= scene.rest->speed));
+      if (scheme != "high-order") continue;
       // The function that the extension ties bears a force at rest, of which the damping takes its part.
-      CHECK((scheme == "high-order" && degree == "2"));
-      CHECK(result.to_and_fro);
-      CHECK(result.last_speed < 1e-4);  // 2e-5 measured
-      CHECK_THAT(summary(scene, result), contains("m/s in the last step, rest.speed is 1e-06 m/s;") &&
-                                             contains("local damping keeps up: raise rest.speed"));
+      CHECK(result.at_rest == (degree == "3"));
+      CHECK(result.at_rest != says("keeps up: raise rest.speed"));
     }
 }
 
