@@ -41,13 +41,15 @@ class RestWatch {
     steps_needed_ = static_cast<std::int64_t>(std::ceil(longest / time_step));
   }
   bool at_rest(const std::vector<State>& states) {
+    bool quiet = true;
     longest_ = 0.0;
     for (std::size_t body = 0; body < before_.size(); ++body) {
       const auto& displacement = states[body].particles.displacement;
       auto& before = before_[body];
       for (std::size_t i = 0; i < before.size(); ++i) {
         const double way = displacement[i] - before[i];
-        if (!(std::abs(way) <= longest_)) {
+        quiet = quiet && std::abs(way) <= longest_way_;
+        if (std::abs(way) > longest_) {
           longest_ = std::abs(way);
           to_and_fro_ = way * ways_[body][i] < 0.0;
         }
@@ -55,7 +57,6 @@ class RestWatch {
         before[i] = displacement[i];
       }
     }
-    const bool quiet = longest_ <= longest_way_;
     quiet_steps_ = quiet ? quiet_steps_ + 1 : 0;
     return quiet_steps_ >= steps_needed_;
   }
