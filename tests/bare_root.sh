@@ -48,4 +48,4 @@ for command in "$@"; do
   part "$command"
   inside "$command"
 done
-part "done; $(du -sm --exclude=build "$root" | cut -f 1) MB with packages"
+part "done; $(inside "dpkg-query -W -f '\${Installed-Size}\n'" | awk '{ s += $1 } END { printf "%d", s * 1.024e-3 }') MB of packages"
