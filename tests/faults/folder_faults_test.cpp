@@ -83,7 +83,7 @@ TEST_CASE("fault 8: --no-clobber refuses to replace a run, and touches nothing")
   const std::string run = tool + quick + " --quiet --no-vtk --no-clobber --output " + words(scratch / "out");
   REQUIRE(run_command(run).exit_code == 0);
   const auto before = said_of(scratch / "out");
-  const auto again = run_command(run + " --cells 4");
+  const auto again = run_command(run + " --snapshots 3");
   CHECK(again.exit_code == 5);
   CHECK_THAT(again.err, contains("there is a run already, its run.json, and --no-clobber was given"));
   CHECK(said_of(scratch / "out") == before);
