@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 
 #include <hompm/verify/foreign_comparison.hpp>
 
 #include "bounds.hpp"
+#include "foreign_formats.hpp"
 #include "foreign_picture.hpp"
 #include "foreign_text.hpp"
 
@@ -25,12 +27,33 @@ ForeignOptions read_options(const po::variables_map& given) {
       if (bound.field != "all") options.required.push_back(bound.field);
     }
   }
-  options.interpolate = given.count("interpolate") > 0;
-  if (given.count("time") > 0) {
-    for (const auto& text : given["time"].as<Words>()) {
-      options.times.push_back(parse_number(text, "--time " + text));
+  const auto words = [&](const char* option) {
+    return given.count(option) > 0 ? given[option].as<Words>() : Words();
+  };
+  for (const auto& list : words("fields")) {
+    std::istringstream names(list);
+    for (std::string field; std::getline(names, field, ',');) {
+      if (std::ranges::find(fields, field) == fields.end())
+        throw UsageError("--fields " + list + ": no field is called " + field + suggestion(field, fields));
+      options.fields.push_back(field);
     }
   }
+  auto columns = fields;
+  columns.insert(columns.end(), {"X", "time", "particle", "body"});
+  for (const auto& column : read_bounds(given, "column", columns))
+    options.columns[column.field] = column.value;
+  if (given.count("direction") > 0) {
+    const auto direction = given["direction"].as<std::string>();
+    if (direction != "x" && direction != "y" && direction != "z")
+      throw UsageError("--direction " + direction + ": it is x, y or z");
+    options.direction = direction[0];
+  }
+  if (given.count("time-tolerance") > 0) {
+    const auto text = given["time-tolerance"].as<std::string>();
+    options.time_tolerance = parse_bound(text, "--time-tolerance " + text);
+  }
+  options.interpolate = given.count("interpolate") > 0;
+  for (const auto& text : words("time")) options.times.push_back(parse_number(text, "--time " + text));
   return options;
 }
 
@@ -41,23 +64,36 @@ std::vector<Option> foreign_options() {
       {"exact", "FIELD=T...", "FIELD may differ from the exact solution by T times its largest value in B"},
       {"time", "T...", "compare only time T of B, in s"},
       {"interpolate", "", "compute times that A lacks from those around them"},
+      {"fields", "LIST...", "compare only these fields, such as displacement,stress"},
+      {"column", "FIELD=NAME...", "FIELD (X, time, particle, body) is the column NAME, or the NAMEth"},
+      {"direction", "D", "of a 2D or 3D code's results: x, y or z"},
+      {"time-tolerance", "T", "times that differ by T s or less are the same"},
+      {"time-step", "T", "of a dump that counts steps, in s"},
       {"picture", "FILE", "draw A, B and exact solution: .svg or .png, by gnuplot"}};
 }
 
 void refuse_foreign_options(const po::variables_map& given) {
   for (const Option& option : foreign_options())
     if (given.count(option.name) > 0)
-      throw UsageError("--" + option.name + " goes with a CSV file in the place of A, which is a folder");
+      throw UsageError("--" + option.name +
+                       " goes with a file of another code in the place of A, which is a folder");
 }
 
 int compare_csv(const po::variables_map& given, const std::string& csv, const std::string& folder) {
-  const ForeignOptions options = read_options(given);
+  ForeignOptions options = read_options(given);
+  options.name = csv == "-" ? "standard input" : csv;
   const bool draws = given.count("picture") > 0;
   const std::string picture = draws ? given["picture"].as<std::string>() : "";
   if (draws) require_picture_name(picture);
   ForeignComparison comparison;
   try {
-    comparison = compare_foreign(csv, folder, options);
+    double step = 0.0;
+    if (given.count("time-step") > 0) {
+      const auto text = given["time-step"].as<std::string>();
+      step = parse_bound(text, "--time-step " + text);
+    }
+    const TableFile table(csv, options.direction, step);
+    comparison = compare_foreign(table.path(), folder, options);
   } catch (const OptionError& error) {
     throw UsageError(error.what());
   }

@@ -1,4 +1,4 @@
-// hompm-diff with a CSV file of another code in the place of the first folder.
+// hompm-diff with a file of another code in the place of the first folder.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace hompm::cli {
 
-/// The options that only go with a CSV file.
+/// The options that only go with a file of another code.
 std::vector<Option> foreign_options();
 
-/// Throws `UsageError` when an option is given that only goes with a CSV file.
+/// Throws `UsageError` when an option is given that only goes with a file of another code.
 void refuse_foreign_options(const boost::program_options::variables_map& given);
 
 /// Compares, prints, draws; the exit code. Throws `UsageError`, `FileError`, `SceneError`.

@@ -1,6 +1,11 @@
 #include "foreign_text.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -26,37 +31,105 @@ Json json(const std::optional<ErrorNorms>& norms) {
   return {{"rms", number(norms->rms)}, {"max", number(norms->max)}};
 }
 
+/// The fields in their order, each once.
+std::vector<std::string> fields_of(const ForeignComparison& comparison) {
+  std::vector<std::string> names;
+  for (const auto& f : comparison.fields)
+    if (names.empty() || names.back() != f.field) names.push_back(f.field);
+  return names;
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// How far a field agrees, of all its times: digits of the largest value; nothing where nothing is compared.
+struct Agreement {
+  std::string field;
+  double digits = std::numeric_limits<double>::infinity();  ///< infinity where every bit agrees
+  const ForeignField* worst = nullptr;
+};
+
+std::vector<Agreement> agreements(const ForeignComparison& comparison, bool exact) {
+  std::vector<Agreement> all;
+  for (const auto& f : comparison.fields) {
+    if (exact ? !f.error : f.particles == 0) continue;
+    if (f.field == "x" && fields_of(comparison).size() > 1) continue;  // the displacement tells more
+    if (all.empty() || all.back().field != f.field) all.push_back({f.field});
+    const double distance = exact ? f.error->max : f.difference.max;
+    if (distance == 0.0) continue;
+    const double digits = std::max(0.0, -std::log10(distance / f.scale));  // −∞ for a scale of 0, 0 for NaN
+    if (digits >= all.back().digits && all.back().worst != nullptr) continue;
+    all.back().digits = digits;
+    all.back().worst = &f;
+  }
+  return all;
+}
+
+/// "displacement agrees to 14.3 digits, velocity to 12.1 (worst at X = 22.6 m, t = 2.5 s)", or "".
+std::string agreement_text(const ForeignComparison& comparison, bool exact) {
+  std::string text;
+  const ForeignField* worst = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  std::string unit = " digits";  // said once
+  for (const auto& a : agreements(comparison, exact)) {
+    text += text.empty() ? a.field + " agrees " + (exact ? "with the exact solution " : "")
+                         : ", " + a.field + " ";
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.begin(), digits.end(), a.digits, std::chars_format::fixed, 1).ptr;
+    text += a.worst == nullptr ? "in every bit"
+                               : "to " + std::string(digits.begin(), end) + std::exchange(unit, "");
+    if (a.digits >= least) continue;
+    least = a.digits;
+    worst = a.worst;
+  }
+  if (worst != nullptr)
+    text += " (worst at " + (exact ? "" : "X = " + rounded(worst->worst_X) + " m, ") +
+            "t = " + to_text(worst->time) + " s)";
+  return text.empty() ? "" : text + "\n";
+}
+
 }  // namespace
 
 std::string foreign_text(const ForeignComparison& comparison) {
   std::string text = to_string(comparison.verdict) + "\n";
+  if (!comparison.fields.empty()) text += "compared: " + list(fields_of(comparison));
+  if (!comparison.not_compared.empty())
+    text += (comparison.fields.empty() ? "not compared: " : "; not compared, not being in A: ") +
+            list(comparison.not_compared);
+  if (text.back() != '\n') text += "\n";
   for (const auto& message : comparison.messages) text += message + "\n";
   if (!comparison.fields.empty()) {
     text += "errors over the largest value of the field in B\n";
     std::vector<std::vector<std::string>> rows{{"field", "largest", "time", "particles", "differing",
                                                 "beyond", "at X", "A-B max", "A-exact rms", "A-exact max",
-                                                "B-exact rms", "B-exact max"}};
+                                                "B-exact rms", "B-exact max", ""}};
     for (const auto& f : comparison.fields) {
-      rows.push_back(
-          {f.field, rounded(f.scale), to_text(f.time), std::to_string(f.particles),
-           std::to_string(f.differing), std::to_string(f.beyond), f.differing > 0 ? rounded(f.worst_X) : "-",
-           over(f.difference.max, f.scale), over(f.error, &ErrorNorms::rms, f.scale),
-           over(f.error, &ErrorNorms::max, f.scale) + (f.beyond_exact ? "!" : ""),
-           over(f.golden_error, &ErrorNorms::rms, f.scale), over(f.golden_error, &ErrorNorms::max, f.scale)});
+      const bool any = f.particles > 0;
+      const bool fails = f.beyond > 0 || f.beyond_exact;
+      if (fails) rows.front().back() = "fails";
+      rows.push_back({f.field, rounded(f.scale), to_text(f.time), any ? std::to_string(f.particles) : "-",
+                      any ? std::to_string(f.differing) : "-", any ? std::to_string(f.beyond) : "-",
+                      f.differing > 0 ? rounded(f.worst_X) : "-", any ? over(f.difference.max, f.scale) : "-",
+                      over(f.error, &ErrorNorms::rms, f.scale),
+                      over(f.error, &ErrorNorms::max, f.scale) + (f.beyond_exact ? "!" : ""),
+                      over(f.golden_error, &ErrorNorms::rms, f.scale),
+                      over(f.golden_error, &ErrorNorms::max, f.scale), fails ? "<-" : ""});
     }
     text += text_table(rows, 1);
   }
-  for (const auto& f : comparison.fields) {
-    if (!f.beyond_exact) continue;
+  if (std::ranges::any_of(comparison.fields, &ForeignField::beyond_exact))
     text += "!: further from the exact solution than --exact allows\n";
-    break;
-  }
   if (!comparison.reference.empty()) {
     text +=
         "exact: " + comparison.reference + " (its own error: " + rounded(comparison.reference_error) + ")\n";
   }
   for (const auto& note : comparison.notes) text += "note: " + note + "\n";
-  return text;
+  for (const auto& hint : comparison.hints) text += "perhaps: " + hint + "\n";
+  const std::string agreement = agreement_text(comparison, false);
+  return text + (agreement.empty() ? agreement_text(comparison, true) : agreement);
 }
 
 std::string foreign_json(const ForeignComparison& comparison, const std::string& a, const std::string& b) {
@@ -69,16 +142,23 @@ std::string foreign_json(const ForeignComparison& comparison, const std::string&
                       {"differing", f.differing},
                       {"beyond", f.beyond},
                       {"beyond_exact", f.beyond_exact},
+                      {"fails", f.beyond > 0 || f.beyond_exact},
                       {"worst_X", f.differing > 0 ? Json(f.worst_X) : Json()},
-                      {"difference", json(f.difference)},
+                      {"difference", f.particles > 0 ? json(f.difference) : Json()},
                       {"error", json(f.error)},
                       {"golden_error", json(f.golden_error)}});
   }
+  Json digits = Json::object();
+  for (const auto& found : agreements(comparison, false)) digits[found.field] = number(found.digits);
   const Json object{{"verdict", to_string(comparison.verdict)},
                     {"a", a},
                     {"b", b},
                     {"messages", comparison.messages},
+                    {"hints", comparison.hints},
                     {"notes", comparison.notes},
+                    {"compared", fields_of(comparison)},
+                    {"not_compared", comparison.not_compared},
+                    {"digits", digits},
                     {"reference", comparison.reference.empty() ? Json() : Json(comparison.reference)},
                     {"reference_error", number(comparison.reference_error)},
                     {"fields", fields}};

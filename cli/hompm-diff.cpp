@@ -4,7 +4,7 @@
 //   Compares particles.csv, stress.csv and history.csv of folder A with those of folder B, bit for bit, and
 //   scene.toml as text. Tolerances have to be asked for, field by field or for `all` of them. Says where the
 //   two differ first and where each field differs most. The exit code tells the verdict: 0 identical or
-//   equivalent, 3 different. Where A is a CSV file, see foreign.hpp.
+//   equivalent, 3 different. Where A is a file, see foreign.hpp.
 
 #include <filesystem>
 #include <iostream>
@@ -33,7 +33,8 @@ hompm::cli::Tool this_tool() {
       .usage = "[options] A B",
       .about =
           "Compares the results in the folder A with those in the golden folder B, bit for bit; "
-          "or those of another code in the CSV file A with those in B and the exact solution.",
+          "or those of another code in the file A (- for standard input) with those in B and the exact "
+          "solution; B may then be a scene file or a built-in case, too.",
       .examples = {"hompm-diff out golden/bar-large-bspline",
                    "hompm-diff --relative all=1e-2 mine.csv golden/bar-small-bspline"},
       .topics = {{"bounds",
@@ -45,7 +46,7 @@ hompm::cli::Tool this_tool() {
                    {"relative", "FIELD=T...", "… by T times the largest value of FIELD at that time in B"},
                    {"ulps", "FIELD=N...", "… by N units in the last place"}}},
                  {"csv",
-                  "when A is a CSV file of another code",
+                  "when A is a file of another code",
                   {"hompm-diff --exact all=2e-2 --time 2.5 mine.csv golden/bar-small-bspline",
                    "hompm-diff --picture mine.svg mine.csv golden/bar-small-bspline"},
                   hompm::cli::foreign_options()},
@@ -56,10 +57,11 @@ hompm::cli::Tool this_tool() {
                  {"outputs", "what is printed", {}, {{"quiet", "", "nothing; only the exit code tells"}}}},
       .remarks =
           "A value passes when it meets any of its bounds. Without bounds a single bit\n"
-          "makes the two different. A CSV file needs the columns X, time and one of x,\n"
-          "displacement, velocity, volume, density, stress, stretch, in any order; others\n"
-          "are let pass. Particles are matched by X. Largest values are then those of all\n"
-          "times, and only fields with a bound are judged, if any has one.\n\n"
+          "makes the two different. A file of another code is a table, .vtu, .vtp, .pvd or\n"
+          "LAMMPS dump, maybe in .gz; it needs X, time and one of x, displacement, velocity,\n"
+          "volume, density, stress, stretch, in any order. Particles are matched by X.\n"
+          "Largest values are then those of all times, and only fields with a bound are\n"
+          "judged, if any has one; with `all` each field of B must be there.\n\n"
           "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read\n"
           "or write.\n",
       .takes_arguments = true};
@@ -113,11 +115,16 @@ int compare(const po::variables_map& given, const Words& folders) {
                                    : given.count("quiet") > 0 ? Report::none
                                                               : Report::text);
   }
-  std::error_code unreadable;  // then it is not a file, and the comparison says why
-  if (std::filesystem::is_regular_file(folders[0], unreadable)) {
+  std::error_code missing;  // then it is nothing, and reading it says why
+  if (!std::filesystem::is_directory(folders[0], missing)) {
     return hompm::cli::compare_csv(given, folders[0], folders[1]);
   }
   hompm::cli::refuse_foreign_options(given);
+  if (std::filesystem::exists(folders[1], missing) && !std::filesystem::is_directory(folders[1], missing)) {
+    throw hompm::cli::UsageError(
+        folders[1] + " is a file, " + folders[0] +
+        " a folder: a file of another code comes first, what it is held against second");
+  }
   const auto tolerances = hompm::cli::read_tolerances(given, hompm::compared_fields());
 
   // 2. Compare.

@@ -3,7 +3,7 @@
 # tests/run.sh all. Does nothing when all are there.
 set -eu
 
-packages="g++ cmake ninja-build libboost-dev libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev"
+packages="g++ cmake ninja-build libboost-dev libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev"
 case "${1:-}" in
   --tests | --all) packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy valgrind gnuplot-nox" ;;
 esac

@@ -113,6 +113,29 @@ TEST_CASE("golden data are identical to themselves in every spelling", "[foreign
   SECTION("empty lines") {
     theirs.change_lines([](Lines& lines) { lines.insert(lines.begin() + 100, {"", " "}); });
   }
+  SECTION("semicolons and decimal commas") {
+    std::replace(theirs.text.begin(), theirs.text.end(), ',', ';');
+    std::replace(theirs.text.begin(), theirs.text.end(), '.', ',');
+  }
+  SECTION("blanks") { std::replace(theirs.text.begin(), theirs.text.end(), ',', ' '); }
+  SECTION("tabs") { std::replace(theirs.text.begin(), theirs.text.end(), ',', '\t'); }
+  SECTION("a header with commas above rows with blanks, comments between") {
+    const auto end = theirs.text.find('\n');
+    std::replace(theirs.text.begin() + static_cast<std::ptrdiff_t>(end), theirs.text.end(), ',', ' ');
+    theirs.text.insert(end + 1, "# a comment\n% another\n");
+    theirs.text.insert(0, "# ");
+  }
+  SECTION("the exponents of Fortran") {
+    std::replace(theirs.text.begin() + 100, theirs.text.end(), 'e', 'D');
+  }
+  SECTION("names by which others call the columns, in any case") {
+    theirs.text.replace(0, theirs.text.find('\n'), "T,ID,X0,Pos,U,vel,Vol,RHO");
+  }
+  SECTION("units") {
+    theirs.text.replace(
+        0, theirs.text.find('\n'),
+        "time [s],particle,X (m),x [m],\"displacement [m]\",velocity [m/s],volume,density [kg/m^3]");
+  }
   SECTION("no end of the last line") {
     theirs.text.pop_back();
     notes = 1;
@@ -189,25 +212,8 @@ TEST_CASE("each damage of another code's file has its own message", "[foreign]")
       {"empty value", " line 4: `` in column `velocity` is not a number", set(3, 5, " ")},
       {"decimal comma", " line 4: 9 fields where the header has 8 (a decimal comma?): `0,2,",
        set(3, 5, "0,003")},
-      {"decimal commas and semicolons", " line 1: the columns are separated by semicolons: commas between",
-       [](Theirs& t) {
-         std::replace(t.text.begin(), t.text.end(), ',', ';');
-         std::replace(t.text.begin(), t.text.end(), '.', ',');
-       }},
-      {"blanks between columns", " line 1: the columns are separated by blanks",
-       [](Theirs& t) { std::replace(t.text.begin(), t.text.end(), ',', ' '); }},
       {"cut row", " line 4: 2 fields where the header has 8: `0,2`",
        [](Theirs& t) { t.change_lines([](Lines& l) { l[3] = "0,2"; }); }},
-      {"no X", " line 1: the column `X` is missing, by which particles are matched", set(0, 2, "X0")},
-      {"no time", " line 1: the column `time` is missing; --time T says", set(0, 0, "t")},
-      {"column twice", " line 1: the column `x` is there twice", set(0, 4, "x")},
-      {"nothing to compare", " line 1: there is no column to compare; known are x, displacement",
-       [](Theirs& t) { t.text = "time,X,disp\n0,1,2\n"; }},
-      {"no header", " line 1: the column `X` is missing",
-       [](Theirs& t) { t.change_lines([](Lines& l) { l.erase(l.begin()); }); }},
-      {"only the header", ": there is no row with a readable time below the header",
-       [](Theirs& t) { t.change_lines([](Lines& l) { l.resize(1); }); }},
-      {"empty file", ": the file is empty", [](Theirs& t) { t.text.clear(); }},
       {"a time that is missing in between",
        ": time 1.25 is missing, the next ones are 0 and 2.5; --interpolate",
        [](Theirs& t) {
@@ -235,6 +241,37 @@ TEST_CASE("each damage of another code's file has its own message", "[foreign]")
   }
 }
 
+TEST_CASE("what cannot be read, or compared at all, is an error that says why", "[foreign]") {
+  const std::vector<std::pair<std::string, std::string>> files{
+      {"time,particle,Y,velocity\n0,0,1,2\n",
+       " line 1: the column `X` is missing, by which particles are matched"},
+      {"tim,X,velocity\n0,1,2\n", " line 1: the column `time` is missing; --time T says"},
+      {"time,X,x,x\n0,1,2,3\n", " line 1: the column `x` is there twice"},
+      {"time,X,u,displacement_x\n0,1,2,3\n",
+       " line 1: the columns `u` and `displacement_x` may both be the displacement: --column displacement=… "
+       "says which"},
+      {"time,X,disp\n0,1,2\n", " line 1: there is no column to compare; known are x, displacement"},
+      {"time,X,stress [psi]\n0,1,2\n", " line 1: the unit `psi` of a column is unknown; known are m, s, "},
+      {"0,1,2\n0,2,3\n", " line 1: there is no header: --column X=1"},
+      {"# made on a Monday\n0 1 2\n", " line 2: there is no header"},
+      {"time,X,velocity\n", ": there is no row with a readable time below the header"},
+      {"", ": the file is empty"},
+      {std::string("time\0\1", 6), " line 1: this is not text"},
+      {"time,X,velocity\nnan,1,2\n", ": there is no row with a readable time below the header"}};
+  for (const auto& [text, expected] : files) {
+    Theirs theirs;
+    theirs.text = text;
+    INFO(message_of<hompm::FileError>([&] { theirs.compare(); }));
+    CHECK(contains(message_of<hompm::FileError>([&] { theirs.compare(); }),
+                   "cannot read " + theirs.csv.string() + expected));
+  }
+  const Theirs theirs;
+  CHECK(contains(message_of<hompm::FileError>([&] {
+                   theirs.compare({.columns = {{"velocity", "speed"}}});
+                 }),
+                 "there is no column `speed` to take for the velocity"));
+}
+
 TEST_CASE("a golden folder that is damaged is told as such", "[foreign]") {
   const Theirs theirs;
   const fs::path b = theirs.folder / "b";
@@ -242,7 +279,7 @@ TEST_CASE("a golden folder that is damaged is told as such", "[foreign]") {
   CHECK(contains(message_of<hompm::FileError>([&] { theirs.compare({}, b); }),
                  "it holds no particles.csv or stress.csv"));
   write_file(b / "particles.csv", "time;X\n");
-  CHECK(contains(theirs.compare({}, b).messages.front(), "separated by semicolons"));
+  CHECK(contains(message_of<hompm::FileError>([&] { theirs.compare({}, b); }), "no column to compare"));
   fs::copy_file(golden / "particles.csv", b / "particles.csv", fs::copy_options::overwrite_existing);
   auto result = theirs.compare({}, b);
   CHECK(result.verdict == Verdict::identical);
@@ -371,7 +408,7 @@ TEST_CASE("times are matched, named, interpolated or refused", "[foreign]") {
   write_file(a, "X,velocity\n0.75," + hompm::to_text(value(1.0, 0.75)) + "\n0.25," +
                     hompm::to_text(value(1.0, 0.25)) + "\n");
   CHECK(compare_foreign(a, b, {.times = {1.0}}).verdict == Verdict::identical);
-  CHECK(compare_foreign(a, b, {.times = {1.0, 2.0}}).verdict == Verdict::different);
+  CHECK_THROWS_AS(compare_foreign(a, b, {.times = {1.0, 2.0}}), hompm::FileError);
 
   write_file(a, table({0.5, 0.9, 1.25, 1.8}) + "1.8,0.5,0\n");
   result = compare_foreign(a, b, {.times = {1.0}, .interpolate = true});
@@ -388,13 +425,40 @@ TEST_CASE("X with few digits is matched and told", "[foreign]") {
   CHECK(contains(result.notes.front(), "particles are matched by X to within 6.25"));
 }
 
-TEST_CASE("columns with other names are told, with what may be meant", "[foreign]") {
+TEST_CASE("a column that looks like a field and is not read is no agreement", "[foreign]") {
   Theirs theirs;
-  theirs.set(0, 5, "Velocity");
-  const auto result = theirs.compare();
+  theirs.set(0, 4, "displ");
+  theirs.set(0, 5, "velocty");
+  auto result = theirs.compare({.tolerances = {{"density", {.relative = 1.0}}}});
+  CHECK(result.verdict == Verdict::different);
+  CHECK(contains(result.messages.front(),
+                 "the column `displ` looks like displacement and is not read; --column displacement=displ"));
+  CHECK(contains(result.messages.back(), "the column `velocty` looks like velocity"));
+  CHECK(result.notes.front() == theirs.csv.string() +
+                                    ": columns not looked at: `displ` (did you mean displacement?), "
+                                    "`velocty` (did you mean velocity?)");
+  CHECK(theirs.compare({.fields = {"density"}}).verdict == Verdict::identical);
+  CHECK(theirs.compare({.columns = {{"displacement", "displ"}, {"velocity", "6"}}}).verdict ==
+        Verdict::identical);
+}
+
+TEST_CASE("each field of golden that has a bound must be in the file, or follow from what is", "[foreign]") {
+  ForeignOptions all;
+  for (const auto& field : hompm::foreign_fields()) all.tolerances[field] = {.relative = 1.0};
+  Theirs theirs;  // no stress and no stretch, which mass and law make of the density
+  auto result = theirs.compare(all);
   CHECK(result.verdict == Verdict::identical);
-  CHECK(result.notes.front() ==
-        theirs.csv.string() + ": columns not looked at: `Velocity` (did you mean velocity?)");
+  CHECK(result.not_compared == std::vector<std::string>{"stress", "stretch"});
+  theirs.change_fields([](Lines& fields) { fields.resize(6); });
+  result = theirs.compare(all);
+  CHECK(result.verdict == Verdict::different);
+  CHECK(contains(result.messages.front(),
+                 "a bound is asked for `volume`, but there is no such column; --fields"));
+  all.fields = {"displacement", "velocity"};
+  CHECK(theirs.compare(all).verdict == Verdict::identical);
+  all.fields = {"stress"};
+  result = theirs.compare(all);
+  CHECK(contains(result.messages.front(), "but there is no such column"));
 }
 
 TEST_CASE("a body that comes to rest is compared when it has", "[foreign]") {
@@ -436,4 +500,141 @@ TEST_CASE("a column that is meant is named only where it is not there", "[foreig
   });
   CHECK(theirs.compare().notes.front() ==
         theirs.csv.string() + ": columns not looked at: `Velocity`, `qqqqqqqq`, `\"`");
+}
+
+TEST_CASE("particles on another grid are judged by the exact solution alone", "[foreign]") {
+  Theirs theirs;
+  theirs.change_fields([](Lines& fields) {
+    if (fields[2] != "X") fields[2] = hompm::to_text(std::stod(fields[2]) + 1e-3);
+  });
+  const auto result = theirs.compare({.exact = {{"velocity", 0.1}}});
+  CHECK(result.verdict == Verdict::equivalent);
+  CHECK(contains(joined(result.notes, "\n"),
+                 "none of the 256 particles at time 0 has the X of one of the 256 of B"));
+  CHECK(theirs.compare({.tolerances = {{"velocity", {.relative = 1.0}}}}).verdict == Verdict::different);
+  CHECK(theirs.compare({.exact = {{"velocity", 1e-9}}}).verdict == Verdict::different);
+
+  // A case, or a scene file, in the place of the folder.
+  for (const fs::path& b : {fs::path("bar-small"), golden / "scene.toml"}) {
+    const auto alone = theirs.compare({.exact = {{"velocity", 0.1}}}, b);
+    CHECK(alone.verdict == Verdict::equivalent);
+    CHECK(alone.fields.size() == 2 * 3);  // displacement and velocity, at three times
+    CHECK(alone.fields.front().particles == 0);
+    CHECK(theirs.compare({.exact = {{"velocity", 1e-9}}}, b).verdict == Verdict::different);
+    // At 2.5 s the bar is nearly where it began: the scale is that of all times.
+    const auto last = theirs.compare({.exact = {{"displacement", 0.1}}, .times = {2.5}}, b);
+    CHECK(last.verdict == Verdict::equivalent);
+    CHECK(last.fields.front().scale > 0.07);
+    CHECK_THROWS_AS(theirs.compare({.times = {7.0}}, b), hompm::OptionError);
+  }
+  CHECK(contains(message_of<hompm::FileError>([&] { theirs.compare({}, "bar-smal"); }),
+                 "the built-in cases are bar-"));
+  CHECK(contains(message_of<hompm::FileError>([&] { theirs.compare({}, theirs.csv); }), "nor a scene file"));
+}
+
+TEST_CASE("a file that ends a little early is compared where it has data", "[foreign]") {
+  Theirs theirs;
+  const auto relabel = [&](const std::string& last) {
+    theirs.change_fields([&](Lines& fields) {
+      if (fields[0] == "2.5") fields[0] = last;
+    });
+  };
+  relabel("2.4999");
+  auto result = theirs.compare();
+  CHECK(result.verdict == Verdict::equivalent);  // not all of it was compared
+  CHECK(contains(result.notes.front(), "time 2.5 is not compared: A ends before it, at 2.4999"));
+  CHECK(theirs.compare({.time_tolerance = 1e-3}).verdict == Verdict::identical);
+  CHECK(theirs.compare({.times = {2.5}, .time_tolerance = 1e-5}).verdict == Verdict::different);
+}
+
+TEST_CASE("X may follow from other columns, and strips are averaged", "[foreign]") {
+  Theirs theirs;
+  SECTION("from x and displacement") {
+    theirs.set(0, 2, "other");
+    CHECK(theirs.compare({.tolerances = {{"velocity", {.ulps = 1}}}}).verdict != Verdict::different);
+  }
+  SECTION("from the particle's number and the first time") {
+    theirs.change_fields([](Lines& fields) { fields = {fields[0], fields[1], fields[3], fields[5]}; });
+    CHECK(theirs.compare().verdict == Verdict::identical);
+    theirs.text += "2.5,777,1,1\n";
+    CHECK(contains(theirs.compare().messages.front(), "particle 777 is not there at the first time"));
+  }
+  SECTION("of a strip") {
+    const auto lines = split(theirs.text, '\n');
+    for (std::size_t i = 1; i < lines.size(); ++i) theirs.text += lines[i] + "\n";
+    auto result = theirs.compare();
+    CHECK(result.verdict == Verdict::identical);
+    CHECK(contains(result.notes.front(),
+                   "512 rows at time 0 are averaged over those of the same X, 256 of them; they lie apart by "
+                   "up to x 0, displacement 0"));
+    auto fields = split(lines[1], ',');
+    theirs.set(1, 5, hompm::to_text(std::stod(fields[5]) + 1e-3));
+    result = theirs.compare();
+    CHECK(std::abs(figures(result, "velocity", 0.0).difference.max - 0.5e-3) < 1e-15);
+    CHECK(contains(result.notes.front(), "velocity 0.001"));
+  }
+  SECTION("in another direction") {
+    theirs.text.replace(0, theirs.text.find('\n'), "t,id,Y,y,uy,v2,vol,rho");
+    CHECK(theirs.compare({.direction = 'y'}).verdict == Verdict::identical);
+    CHECK_THROWS_AS(theirs.compare(), hompm::FileError);
+  }
+}
+
+TEST_CASE("mistakes are named", "[foreign]") {
+  struct Mistake {
+    std::string hint;
+    std::function<void(Lines&)>
+        change;  // of fields: time, particle, X, x, displacement, velocity, volume, density
+  };
+  const auto times = [](std::size_t column, double factor) {
+    return [=](Lines& fields) { fields[column] = hompm::to_text(std::stod(fields[column]) * factor); };
+  };
+  const std::vector<Mistake> all{
+      {"displacement: A is 1000 × B: millimetres?", times(4, 1e3)},
+      {"velocity: A is 1000 × B: mm/s?", times(5, 1e3)},
+      {"density: A is 0.001 × B: g/cm³?", times(7, 1e-3)},
+      {"velocity: A is −1 × B: the axis the other way round?", times(5, -1.0)},
+      {"time: A is 1000 × B: milliseconds?", times(0, 1e3)},
+      {"X: A is 1000 × B: millimetres?", times(2, 1e3)},
+      {"displacement of A is X + that of B: is it x?", [](Lines& f) { f[4] = f[3]; }},
+      {"x of A is that of B without X: is it the displacement?", [](Lines& f) { f[3] = f[4]; }},
+      {"displacement, velocity of A are 1.25 × those of B: another amplitude or load?",
+       [&](Lines& f) {
+         times(4, 1.25)(f);
+         times(5, 1.25)(f);
+       }},
+      {"all values of A fit in single precision",
+       [](Lines& f) {
+         for (std::size_t c = 3; c < 8; ++c)
+           f[c] = hompm::to_text(static_cast<double>(static_cast<float>(std::stod(f[c]))));
+       }},
+      {"A lacks 1 of 256 particles, all at the right end",
+       [](Lines& f) {
+         if (std::stod(f[2]) > 24.9) f = {""};
+       }},
+      {"A has 128 particles, B 64 cells × 4: 2 in a cell?",
+       [](Lines& f) {
+         f[2] = hompm::to_text(std::stod(f[2]) + 0.01);
+         if (std::stoi(f[1]) % 2 == 0) f = {""};
+       }},
+      {"A is one step, 1e-04 s, ahead: are its times those of another step?",
+       [](Lines& f) { f[4] = hompm::to_text(std::stod(f[4]) + 1e-4 * std::stod(f[5])); }},
+  };
+  for (const auto& [hint, change] : all) {
+    Theirs theirs;
+    theirs.change_lines([&change = change](Lines& lines) {
+      for (std::size_t i = 1; i < lines.size(); ++i) {
+        auto fields = split(lines[i], ',');
+        change(fields);
+        lines[i] = joined(fields, ",");
+        lines[i].pop_back();
+      }
+    });
+    const auto result = theirs.compare();
+    INFO(hint << "\n" << joined(result.hints, "\n"));
+    CHECK(result.verdict == Verdict::different);
+    REQUIRE_FALSE(result.hints.empty());
+    CHECK(std::any_of(result.hints.begin(), result.hints.end(),
+                      [&](const auto& h) { return contains(h, hint); }));
+  }
 }

@@ -7,9 +7,9 @@
 #include <hompm/error.hpp>
 #include <hompm/simulation/columns.hpp>
 #include <hompm/verify/compare.hpp>
-#include <hompm/verify/csv_table.hpp>
 #include <hompm/verify/excerpt.hpp>
 #include <hompm/verify/field_judge.hpp>
+#include <hompm/verify/table.hpp>
 #include <hompm/verify/table_comparison.hpp>
 
 namespace hompm {
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One results file and its fields.
-struct Table {
+struct ResultsFile {
   std::string name;
   bool has_particles;
   std::vector<std::string> fields;
@@ -32,10 +32,11 @@ std::vector<std::string> names(const Columns& columns) {
   return all;
 }
 
-const std::array<Table, 3>& tables() {
-  static const std::array<Table, 3> all{Table{"particles.csv", true, names(detail::particle_columns)},
-                                        Table{"stress.csv", true, names(detail::stress_columns)},
-                                        Table{"history.csv", false, names(detail::history_columns)}};
+const std::array<ResultsFile, 3>& tables() {
+  static const std::array<ResultsFile, 3> all{
+      ResultsFile{"particles.csv", true, names(detail::particle_columns)},
+      ResultsFile{"stress.csv", true, names(detail::stress_columns)},
+      ResultsFile{"history.csv", false, names(detail::history_columns)}};
   return all;
 }
 
@@ -53,7 +54,8 @@ void require_folder(const fs::path& path) {
   if (!fs::is_directory(path, ignored)) throw FileError("read", path, ENOTDIR);
 }
 
-std::vector<Tolerance> tolerances_of(const Table& table, const std::map<std::string, Tolerance>& tolerances) {
+std::vector<Tolerance> tolerances_of(const ResultsFile& table,
+                                     const std::map<std::string, Tolerance>& tolerances) {
   std::vector<Tolerance> all;
   for (const auto& field : table.fields) {
     const auto found = tolerances.find(field);
@@ -126,8 +128,9 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
       faults.add(missing.string(), "missing files", 0, "missing, but there is " + there.string());
     }
     if (!in_a || !in_b) continue;
-    detail::CsvTable table_a(file_a, table.fields, table.has_particles, faults, notes);
-    detail::CsvTable table_b(file_b, table.fields, table.has_particles, faults, notes);
+    const detail::TableLayout layout{.fields = table.fields, .with_particles = table.has_particles};
+    detail::Table table_a(file_a, layout, faults, notes);
+    detail::Table table_b(file_b, layout, faults, notes);
     if (!table_a.has_keys() || !table_b.has_keys()) continue;
     detail::FieldJudge judge(table.name, table.fields, tolerances_of(table, tolerances));
     compare_tables(table_a, table_b, table.fields.size(), judge);

@@ -6,14 +6,39 @@
 #include <hompm/verify/judge.hpp>
 
 namespace hompm::detail {
+namespace {
 
-ForeignTruth::ForeignTruth(const std::filesystem::path& folder, MessageLog& notes)
-    : folder_(folder.string()), notes_(notes) {
-  if (!std::filesystem::exists(folder / "scene.toml")) {
+namespace fs = std::filesystem;
+
+/// The built-in scene that is called so: bar, bar-small.
+Scene builtin(const std::string& name) {
+  std::string names;
+  for (const auto& scene : builtin_scenes()) {
+    const std::string whole = scene.case_name + "-" + scene.variant;
+    if (name == whole || (name == scene.case_name && scene.is_default))
+      return load_builtin(scene.case_name, scene.variant, {});
+    names += ", " + whole;
+  }
+  throw FileError("cannot compare with " + name +
+                  ": there is no such folder or scene file, and the built-in cases are " + names.substr(2));
+}
+
+}  // namespace
+
+ForeignTruth::ForeignTruth(const fs::path& b, MessageLog& notes) : name_(b.string()), notes_(notes) {
+  std::error_code none;
+  has_results_ = fs::is_directory(b, none);
+  const fs::path file = has_results_ ? b / "scene.toml" : b;
+  if (!has_results_ && fs::exists(b, none) && b.extension() != ".toml")
+    throw FileError("cannot compare with " + name_ + ": it is not a folder, nor a scene file (.toml)");
+  if (fs::exists(file, none)) {
+    scene_ = load_scene(file.string(), {});
+  } else if (!has_results_) {
+    scene_ = builtin(name_);
+  } else {
     note("there is no scene.toml to say what the exact solution is");
     return;
   }
-  scene_ = load_scene((folder / "scene.toml").string(), {});
   reference_ = make_reference(*scene_);
   if (!reference_) note("no exact solution of its scene is known");
 }
@@ -26,7 +51,9 @@ std::optional<ReferenceFields> ForeignTruth::at(const std::string& whose, const 
   if (!reference_ || block.X.empty()) return std::nullopt;
   std::string reason;
   const Body& body = scene_->body;
-  if (block.X.front() < body.left() || block.X.back() > body.right()) {
+  if (!std::ranges::is_sorted(block.X)) {
+    reason = "its bodies overlap";
+  } else if (block.X.front() < body.left() || block.X.back() > body.right()) {
     reason = "there are particles outside of the body, " + to_text(body.left()) +
              " <= X <= " + to_text(body.right()) + " m";
   } else {
@@ -36,6 +63,18 @@ std::optional<ReferenceFields> ForeignTruth::at(const std::string& whose, const 
   }
   note(whose + " is not held against the exact solution at time " + to_text(block.time) + ": " + reason);
   return std::nullopt;
+}
+
+std::vector<ReferenceFields> ForeignTruth::overview(const std::vector<double>& X) const {
+  std::vector<ReferenceFields> all;
+  const auto reference = make_reference(*scene_);
+  std::string reason;
+  for (int part = 1; part <= 8; ++part) {
+    auto fields = sound_fields(*reference, scene_->end_time * part / 8, X, reason);
+    if (!fields) break;
+    all.push_back(std::move(*fields));
+  }
+  return all;
 }
 
 }  // namespace hompm::detail

@@ -55,6 +55,12 @@ bool LineReader::next() {
   }
 }
 
+void LineReader::rewind() {
+  if (::lseek(descriptor_, 0, SEEK_SET) < 0) throw FileError("read", path_, errno);
+  begin_ = end_ = 0;
+  number_ = 0;
+}
+
 void LineReader::take(std::size_t length) {
   line_ = {buffer_.get() + begin_, length};
   begin_ += length;

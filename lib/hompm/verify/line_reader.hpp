@@ -20,6 +20,8 @@ class LineReader {
   /// Goes to the next line; false at the end of the file. Throws `FileError` when the file cannot be read on,
   /// or when a line is so long that this is not a text file of ours.
   bool next();
+  /// Goes back to before the first line. Throws `FileError`.
+  void rewind();
 
   /// The line without its end, LF or CRLF; valid until `next`.
   [[nodiscard]] std::string_view line() const { return line_; }

@@ -10,16 +10,16 @@ namespace {
 /// The row at hand, the one after it and the key of the one before.
 class Cursor {
  public:
-  explicit Cursor(CsvTable& table) : table_(table), has_row_(table.next(row_)) {
+  explicit Cursor(Table& table) : table_(table), has_row_(table.next(row_)) {
     has_following_ = has_row_ && table.next(following_);
   }
 
   [[nodiscard]] bool has_row() const { return has_row_; }
-  [[nodiscard]] const CsvRow& row() const { return row_; }
+  [[nodiscard]] const Row& row() const { return row_; }
   [[nodiscard]] const RowKey& key() const { return row_.key; }
   /// Where a row that should come now would stand.
   [[nodiscard]] std::int64_t line() const { return has_row_ ? row_.line : table_.next_line(); }
-  [[nodiscard]] CsvTable& table() const { return table_; }
+  [[nodiscard]] Table& table() const { return table_; }
 
   [[nodiscard]] bool is_followed_by(const RowKey& key) const {
     return has_following_ && following_.key == key;
@@ -47,9 +47,9 @@ class Cursor {
   }
 
  private:
-  CsvTable& table_;
-  CsvRow row_;
-  CsvRow following_;
+  Table& table_;
+  Row row_;
+  Row following_;
   RowKey before_;
   bool has_row_;
   bool has_following_;
@@ -77,7 +77,7 @@ void report_order(const Cursor& side, const RowKey* expected) {
 
 class Walk {
  public:
-  Walk(CsvTable& a, CsvTable& b, std::size_t fields, FieldJudge& judge)
+  Walk(Table& a, Table& b, std::size_t fields, FieldJudge& judge)
       : a_(a), b_(b), judge_(judge), values_b_(fields) {}
 
   void run() {
@@ -190,7 +190,7 @@ class Walk {
 
 }  // namespace
 
-void compare_tables(CsvTable& a, CsvTable& b, std::size_t fields, FieldJudge& judge) {
+void compare_tables(Table& a, Table& b, std::size_t fields, FieldJudge& judge) {
   Walk(a, b, fields, judge).run();
 }
 
