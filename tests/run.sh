@@ -55,6 +55,7 @@ case $which in
 esac
 case $which in
   all | rest)
+    rm -f build/coverage/tests.xml
     part "tests with clang++ and its sanitizers, and what they reach" coverage/run.sh
     cp build/coverage/tests.xml "$logs/sanitised.xml" || true
     part "mutants" coverage/mutate.py --check
