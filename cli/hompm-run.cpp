@@ -5,6 +5,7 @@
 // a golden folder is run and the result compared with it. Sample runs: below, in the topics of --help.
 #include <iostream>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,7 +46,7 @@ hompm::cli::Tool this_tool() {
             "how it is discretised; hompm-study says which setting is the cheapest for an error",
             {"hompm-run --case bar --scheme high-order --degree 4 --cells 32",
              "hompm-run --case column --step-fraction 0.9"},
-            {{"scheme", "NAME", "scheme.name; the scheme's own degree unless --degree is given"},
+            {{"scheme", "NAME", "scheme.name; of the file stays what suits the scheme"},
              {"degree", "P", "scheme.degree"},
              {"cells", "N", "scheme.cells, over the length of the body"},
              {"particles-per-cell", "K", "scheme.particles_per_cell"},

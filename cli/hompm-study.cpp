@@ -75,8 +75,9 @@ hompm::cli::Tool this_tool() {
                       {{"output", "DIR", "output folder (default hompm-out/study-CASE-VARIANT)"},
                        {"quiet", "", "print nothing but errors"}}}},
           .remarks =
-              "Exit codes: 0 fine, 2 bad usage, scene or study, 4 no setting reaches the error,\n"
-              "5 cannot read or write, 128 + n stopped by signal n: the same command goes on.\n"};
+              "Exit codes: 0 fine, 2 bad usage, scene or study, 4 no setting can be run or reaches\n"
+              "the error, 5 cannot read or write, 128 + n stopped by signal n: the same command\n"
+              "goes on.\n"};
 }
 
 std::string text_option(const po::variables_map& given, const char* option) {
@@ -204,8 +205,7 @@ int run_study(const StudyJob& job, const po::variables_map& given) {
     return signal.exit_code();
   }
   if (advice) return advise(job, field, error, given.count("json") > 0);
-  write_study_files(job);
-  return success;
+  return write_study_files(job);
 }
 
 int run(const po::variables_map& given) {
@@ -238,8 +238,7 @@ int run(const po::variables_map& given) {
   } catch (const hompm::cli::Interrupted& signal) {
     return signal.exit_code();
   }
-  if (given.count("gather")) hompm::cli::write_study_files(job);
-  return hompm::cli::success;
+  return given.count("gather") ? hompm::cli::write_study_files(job) : hompm::cli::success;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -15,7 +16,7 @@
 #include <hompm/recorder/checkpoint_writer.hpp>
 #include <hompm/recorder/trace.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/simulation/caution.hpp>
+#include <hompm/simulation/warnings.hpp>
 #include <hompm/verify/compare.hpp>
 
 #include "common.hpp"
@@ -157,7 +158,12 @@ int run_scene(Scene scene, const po::variables_map& given, std::optional<Checkpo
     std::cout << explanation(scene, stepping, form);
     return success;
   }
-  if (const std::string text = caution(scene); !quiet && !text.empty()) warn(text);
+  const auto tell = [&](std::span<const Warning> warnings) {
+    for (const Warning& warning : warnings)
+      if (!quiet) warn(warning.text);
+  };
+  const std::vector<Warning> warnings = warnings_before(scene, stepping);
+  tell(warnings);
 
   // 1. The steps.
   const HeldInterruption held;
@@ -201,6 +207,7 @@ int run_scene(Scene scene, const po::variables_map& given, std::optional<Checkpo
     throw;
   }
   if (trace) trace->close();
+  tell(std::span(result.warnings).subspan(warnings.size()));
   try {
     if (result.stopped) check_interruption();
   } catch (const Interrupted& signal) {

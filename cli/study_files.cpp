@@ -1,5 +1,6 @@
 #include "study_files.hpp"
 
+#include <algorithm>
 #include <iostream>
 
 #include <hompm/error.hpp>
@@ -8,6 +9,7 @@
 #include <hompm/study/tables.hpp>
 
 #include "callgrind.hpp"
+#include "common.hpp"
 #include "gnuplot.hpp"
 
 namespace hompm::cli {
@@ -44,7 +46,7 @@ std::size_t gathered_count(const StudyJob& job) {
   return study::gather(job.study, job.points, job.folder, program_id()).outcomes.size();
 }
 
-void write_study_files(const StudyJob& job) {
+int write_study_files(const StudyJob& job) {
   const std::vector<study::Outcome> outcomes = gathered(job);
   std::vector<study::Outcome> untimed = outcomes;  // what does not depend on the clock
   for (study::Outcome& outcome : untimed) outcome.seconds.clear();
@@ -69,9 +71,15 @@ void write_study_files(const StudyJob& job) {
   }
   if (!drawn)
     std::cerr << "hompm-study: gnuplot is not there or failed, so there are scripts instead of pictures\n";
-  if (job.quiet) return;
-  std::cout << study::answers(outcomes, cost) << study::remarks(outcomes) << "files     "
-            << job.folder.string() << "\n";
+  if (!job.quiet)
+    std::cout << study::answers(outcomes, cost) << study::remarks(outcomes) << "files     "
+              << job.folder.string() << "\n";
+  const bool ran = std::ranges::any_of(outcomes, [](const study::Outcome& outcome) {
+    return outcome.record.status == study::Status::ok || outcome.record.status == study::Status::unjudged;
+  });
+  if (!ran)
+    std::cerr << "hompm-study: no point could be run\n" << (job.quiet ? study::remarks(outcomes) : "");
+  return ran ? success : invalid_run;
 }
 
 }  // namespace hompm::cli

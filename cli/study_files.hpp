@@ -16,7 +16,8 @@ std::vector<study::Outcome> gathered(const StudyJob& job);
 std::size_t gathered_count(const StudyJob& job);
 
 /// points.csv, study.json, answers.txt, times.csv, and the pictures by gnuplot where it is there; prints the
-/// answers unless the job is quiet. Throws `FileError` as `gathered`.
-void write_study_files(const StudyJob& job);
+/// answers unless the job is quiet. Returns the exit code: `invalid_run` where no point could be run. Throws
+/// `FileError` as `gathered`.
+int write_study_files(const StudyJob& job);
 
 }  // namespace hompm::cli

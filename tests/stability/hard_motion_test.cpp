@@ -7,8 +7,8 @@
 
 #include <hompm/error.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/simulation/caution.hpp>
 #include <hompm/simulation/critical_step.hpp>
+#include <hompm/simulation/warnings.hpp>
 #include <hompm/verify/judge.hpp>
 
 #include "stability/hard_cases.hpp"
@@ -106,7 +106,7 @@ TEST_CASE(
                                              {"scheme.degree", "1", "--degree"},
                                              {"scheme.sequence", sequence, "--set"},
                                              {"scheme.time_step", step, "--time-step"}});
-    CHECK(hompm::caution(scene).empty() == (sequence == "musl"));
+    CHECK(hompm::warnings_before(scene, hompm::time_stepping(scene)).empty() == (sequence == "musl"));
     return hompm::run(scene, hompm::time_stepping(scene));
   };
   for (const char* step : {"1e-4", "2.5e-5"}) {  // 0.05 and 0.013 of the critical one

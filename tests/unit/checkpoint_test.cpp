@@ -147,8 +147,8 @@ TEST_CASE("a damaged, truncated or foreign checkpoint is refused with its reason
   }
   SECTION("of another format, version, commit or plan") {
     std::string other = good;
-    other[16] = 3;
-    CHECK(contains(reason(other), "it has the format 3, and this hompm reads 2"));
+    other[16] = 5;
+    CHECK(contains(reason(other), "it has the format 5, and this hompm reads 4"));
     const auto& build = hompm::build_info();
     const std::string commit = with_new_hash(
         replaced(good, "(" + build.commit + ")", "(" + std::string(build.commit.size(), '0') + ")"));

@@ -31,7 +31,7 @@ struct Flight {
   }
   hompm::Particles& particles() { return simulation.state().particles; }
   std::string message() {
-    return message_of<InvalidRun>([&] { Guards(row, 0.0).look(simulation); });
+    return message_of<InvalidRun>([&] { Guards(row, 0.0, 0.0).look(simulation); });
   }
   Simulation simulation;
   hompm::HistoryRow row;
@@ -63,16 +63,17 @@ TEST_CASE("particles out of order are found in schemes that would not notice") {
 TEST_CASE("energy may grow to ten times what the start and the loads supplied, and not beyond") {
   Flight flight;
   for (double& v : flight.particles().velocity) v = 3.1;  // 9.6 times the energy
-  Guards(flight.row, 0.0).look(flight.simulation);
+  Guards(flight.row, 0.0, 0.0).look(flight.simulation);
   for (double& v : flight.particles().velocity) v = 3.2;  // 10.2 times
   CHECK_THAT(flight.message(), contains("unstable: energy 5.12") && contains("supplied 0.5"));
-  Guards(flight.row, 0.1).look(flight.simulation);  // the loads supplied some
+  Guards(flight.row, 0.1, 0.0).look(flight.simulation);  // the loads supplied some
+  Guards(flight.row, 0.0, 0.1).look(flight.simulation);  // the loads may yet supply some
   flight.simulation.state().balance.external_work = 0.1;
-  Guards(flight.row, 0.0).look(flight.simulation);
+  Guards(flight.row, 0.0, 0.0).look(flight.simulation);
   flight.simulation.state().balance.external_work = 0.0;
   flight.simulation.state().step = 127;
-  Guards(flight.row, 0.0).look(flight.simulation);  // not one that is looked at
-  CHECK_THROWS_AS(Guards(flight.row, 0.0).check(flight.simulation, flight.simulation.history(0.0)),
+  Guards(flight.row, 0.0, 0.0).look(flight.simulation);  // not one that is looked at
+  CHECK_THROWS_AS(Guards(flight.row, 0.0, 0.0).check(flight.simulation, flight.simulation.history(0.0)),
                   InvalidRun);  // unless it is reported
 }
 

@@ -82,6 +82,11 @@ double approach_limit(const State& state, double gap) {
   return is_shut(state, gap) ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
+double arrival_of(const State& state, double gap, double closing_velocity) {
+  const bool closes = closing_velocity > 0.0 && !is_shut(state, gap);
+  return closes ? gap / closing_velocity : std::numeric_limits<double>::infinity();
+}
+
 BodyEnd::BodyEnd(const PlanBuilder& builder, Side side)
     : divide_by_mass_(builder.divide_by_mass),
       project_(builder.project),

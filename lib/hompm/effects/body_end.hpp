@@ -37,6 +37,10 @@ void carry_contact_stress(State& state, Side side, double gap);
 /// Where no drift follows (outputs), 0 for a gap that is shut, no bound for another.
 double approach_limit(const State& state, double gap);
 
+/// When a gap (m) that closes with a velocity (m/s) will be shut, s from now; infinite for one that is shut
+/// or opens.
+double arrival_of(const State& state, double gap, double closing_velocity);
+
 /// A free end, with what an impulse J on it does. The end is a functional ℓ of particle data: the marker, or
 /// the line through the two outer particles, drawn on over half the length of the outer one. It is at ℓ(X +
 /// u), and the drift moves it with ℓ(N) v. J changes particle velocities by J N M⁻¹ ℓ(N), M the mass by which

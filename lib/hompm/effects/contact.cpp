@@ -24,13 +24,18 @@ void join(const EffectSpec& spec, const PairBuilder& pair) {
                carry_contact_stress(left, Side::right, gap);
                carry_contact_stress(right, Side::left, gap);
              });
-  pair.add(Phase::constraint, "contact", [ends](State& left, State& right) {
-    const double most = approach_limit(left, ends->gap(left, right));
-    const double excess = ends->closing_velocity(left, right) - most;
-    if (!(excess > 0.0)) return;
-    ends->find(left, right);
-    left.balance.dissipated -= ends->slow_down(left, right, excess);
-  });
+  pair.add(
+      Phase::constraint, "contact",
+      [ends](State& left, State& right) {
+        const double most = approach_limit(left, ends->gap(left, right));
+        const double excess = ends->closing_velocity(left, right) - most;
+        if (!(excess > 0.0)) return;
+        ends->find(left, right);
+        left.balance.dissipated -= ends->slow_down(left, right, excess);
+      },
+      [ends](const State& left, const State& right) {
+        return arrival_of(left, ends->gap(left, right), ends->closing_velocity(left, right));
+      });
 }
 
 }  // namespace

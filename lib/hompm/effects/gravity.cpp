@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/scene/amplitude.hpp>
@@ -41,6 +43,17 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   });
 }
 
+/// Of a body that it lays or hangs up, or lets fall, whichever is less.
+LoadOutlook outlook(const EffectSpec& spec, const Scene& scene) {
+  const double b = spec.number("acceleration");
+  const auto& [length, start] = scene.body;
+  const double mass = scene.material.density * length;
+  const double speed = b * scene.end_time;
+  return {.settled_from = b == 0.0 ? 0.0 : amplitude_of(spec).settled_from(),
+          .energy = std::min(mass * b * (mass * b / scene.material.youngs_modulus) * length,
+                             0.5 * mass * speed * speed)};
+}
+
 }  // namespace
 
 EffectType gravity() {
@@ -49,7 +62,8 @@ EffectType gravity() {
           .parameters = with_amplitude({{.name = "acceleration",
                                          .unit = "m/s^2",
                                          .meaning = "in the direction of X; -9.81 pulls a column down"}}),
-          .join = join};
+          .join = join,
+          .outlook = outlook};
 }
 
 }  // namespace hompm::detail

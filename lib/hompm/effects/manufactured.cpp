@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <hompm/effects/effects.hpp>
@@ -89,6 +90,13 @@ std::string conflict(const EffectSpec& spec, const Scene& scene) {
   return "";
 }
 
+/// It oscillates for ever, with the energy of its largest strain.
+LoadOutlook outlook(const EffectSpec& spec, const Scene& scene) {
+  const double strain = numerics::pi * spec.number("amplitude") / scene.body.length;
+  return {.settled_from = strain == 0.0 ? 0.0 : std::numeric_limits<double>::infinity(),
+          .energy = scene.material.youngs_modulus * strain * strain * scene.body.length};
+}
+
 }  // namespace
 
 EffectType manufactured() {
@@ -98,6 +106,7 @@ EffectType manufactured() {
       .parameters = {{.name = "amplitude", .unit = "m", .meaning = "G, below length/pi"}},
       .join = join,
       .conflict = conflict,
+      .outlook = outlook,
       .prepare = prepare};
 }
 

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
@@ -24,6 +26,17 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
       BodyEnd::arrays);
 }
 
+/// Of a body with its velocity, and with the strain of a wave that brings it.
+LoadOutlook outlook(const EffectSpec& spec, const Scene& scene) {
+  const double velocity = spec.number("velocity");
+  const Amplitude amplitude = amplitude_of(spec);
+  const bool moves_on = velocity != 0.0 && amplitude.final() != 0.0;
+  return {.settled_from = moves_on          ? std::numeric_limits<double>::infinity()
+                          : velocity == 0.0 ? 0.0
+                                            : amplitude.settled_from(),
+          .energy = scene.material.density * scene.body.length * velocity * velocity};
+}
+
 }  // namespace
 
 EffectType piston() {
@@ -34,6 +47,7 @@ EffectType piston() {
                which_end("left")}),
           .join = join,
           .conflict = conflict_of_held_end,
+          .outlook = outlook,
           .holds_end = true};
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <hompm/effects/registry.hpp>
 
 namespace hompm {
@@ -25,6 +27,18 @@ void prepare_effects(const Scene& scene, State& state) {
   for (const EffectSpec& spec : scene.effects)
     if (const auto prepare = find_effect(scene, spec).prepare; prepare != nullptr)
       prepare(spec, scene, state);
+}
+
+LoadOutlook outlook(const Scene& scene) {
+  LoadOutlook sum;
+  for (const EffectSpec& spec : scene.effects) {
+    const auto of_effect = find_effect(scene, spec).outlook;
+    if (of_effect == nullptr) continue;
+    const LoadOutlook own = of_effect(spec, scene);
+    sum.settled_from = std::max(sum.settled_from, own.settled_from);
+    sum.energy += own.energy;
+  }
+  return sum;
 }
 
 SmallMotion small_motion(const Scene& scene) {

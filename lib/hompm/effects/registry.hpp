@@ -36,6 +36,12 @@ struct SmallMotion {
   double force_factor = 1.0;  ///< by which the force out of balance may grow
 };
 
+/// What an effect may do as a load.
+struct LoadOutlook {
+  double settled_from = 0.0;  ///< s, from when on it no longer changes; infinite where it always does
+  double energy = 0.0;        ///< J/m², about as much as it may give to the body in the time of the run
+};
+
 /// One row of the catalogue.
 struct EffectType {
   std::string name;
@@ -47,6 +53,8 @@ struct EffectType {
   std::string (*conflict)(const EffectSpec& spec, const Scene& scene) = nullptr;
   /// What the effect does to small motions, and so to the critical step; null: nothing.
   SmallMotion (*small_motion)(const EffectSpec& spec, const Scene& scene) = nullptr;
+  /// What a load may do; null for what is none.
+  LoadOutlook (*outlook)(const EffectSpec& spec, const Scene& scene) = nullptr;
   /// Changes the state at t = 0, before the plan is made: fields that only this effect needs, initial values.
   void (*prepare)(const EffectSpec& spec, const Scene& scene, State& state) = nullptr;
   /// Decides how an end moves (its parameter `end`, which must be free): one such effect at each end, joined
@@ -77,6 +85,9 @@ const EffectType& find_effect(const Scene& scene, const EffectSpec& spec);
 
 /// `EffectType::prepare` of all effects of the scene.
 void prepare_effects(const Scene& scene, State& state);
+
+/// What the loads of the scene may do together.
+LoadOutlook outlook(const Scene& scene);
 
 /// What the `small_motion` of all effects of the scene comes to.
 SmallMotion small_motion(const Scene& scene);

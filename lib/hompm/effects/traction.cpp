@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include <hompm/effects/amplitude_parameters.hpp>
@@ -41,6 +42,17 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   });
 }
 
+/// Of a body that it stretches, or speeds up as a whole, whichever is less.
+LoadOutlook outlook(const EffectSpec& spec, const Scene& scene) {
+  const double stress = spec.number("value");
+  const double momentum = stress * scene.end_time;
+  const auto& [law, density, youngs_modulus] = scene.material;
+  const double length = scene.body.length;
+  return {.settled_from = stress == 0.0 ? 0.0 : amplitude_of(spec).settled_from(),
+          .energy = std::min(stress * (stress / youngs_modulus) * length,
+                             momentum * (momentum / (2.0 * density * length)))};
+}
+
 }  // namespace
 
 EffectType traction() {
@@ -53,7 +65,8 @@ EffectType traction() {
                 .meaning = "which end",
                 .words = {"left", "right"},
                 .default_value = "right"}}),
-          .join = join};
+          .join = join,
+          .outlook = outlook};
 }
 
 }  // namespace hompm::detail

@@ -9,11 +9,14 @@
 namespace hompm::detail {
 namespace {
 
-void check_position(const EffectSpec& spec, const State& state, Side side, double position) {
-  const double end = side == Side::right ? state.right_boundary : state.left_boundary;
-  if (outward(side) * (position - end) < 0.0)
+/// `end` as the condition on it will see it, displaced.
+void check_position(const EffectSpec& spec, const State& state, Side side, double position, double end) {
+  const double length = state.right_boundary - state.left_boundary;
+  if (outward(side) * (position - end) < -1e-9 * length)
     throw SceneError(spec.origin, "the wall at " + to_text(position) +
-                                      " m is inside the body, whose end is at " + to_text(end) + " m");
+                                      " m is inside the body, whose end is at " + to_text(end) +
+                                      " m at the start; `position` must be at " +
+                                      (side == Side::right ? "least" : "most") + " that");
   if (state.basis_moves && state.grid.locate(position).cell < 0)
     throw SceneError(spec.origin, "the wall at " + to_text(position) + " m is off the grid, " +
                                       grid_text(state) + "; " + raise_grid);
@@ -26,8 +29,8 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
   const Side side = side_of(spec);
   const double n = outward(side);
   const double position = spec.number("position");
-  check_position(spec, builder.state, side, position);
   const auto end = std::make_shared<BodyEnd>(builder, side);
+  check_position(spec, builder.state, side, position, end->position(builder.state));
   const auto gap = [=](const State& state) { return n * (position - end->position(state)); };
   if (builder.wants_end_stress)
     builder.add(Phase::end_stress, "wall: a marker in contact carries its own stress",
@@ -43,6 +46,8 @@ void join(const EffectSpec& spec, PlanBuilder& builder) {
         state.balance.dissipated -= end->work(impulse);
       },
       BodyEnd::arrays);
+  builder.plan.arrivals.push_back(
+      [=](const State& state) { return arrival_of(state, gap(state), n * end->velocity_now(state)); });
 }
 
 }  // namespace

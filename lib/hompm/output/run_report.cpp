@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +38,18 @@ Json bodies_json(const Scene& scene, const Snapshot& final) {
                       {"kinetic", kinetic}});
   }
   return bodies;
+}
+
+/// How far snapshots, taken after whole steps, are from the times at which they are due, s.
+double largest_shift(const Scene& scene, const TimeStepping& stepping) {
+  const std::int64_t count = scene.output.snapshots;
+  double largest = 0.0;
+  for (std::int64_t k = 1; k < count; ++k) {
+    const std::int64_t step = (2 * k * stepping.steps + count) / (2 * count);  // as run.cpp takes them
+    const double due = scene.end_time * (static_cast<double>(k) / static_cast<double>(count));
+    largest = std::max(largest, std::abs(stepping.time(step, scene.end_time) - due));
+  }
+  return largest;
 }
 
 /// For people: three or four digits.
@@ -93,7 +106,9 @@ std::string run_json(const RunReport& report) {
             {"largest_step_fraction", result.largest_step_fraction},
             {"steps", result.steps},
             {"end_time", result.end.time},
-            {"at_rest", result.at_rest}};
+            {"at_rest", result.at_rest},
+            {"snapshot_interval", scene.end_time / scene.output.snapshots},
+            {"snapshot_shift", largest_shift(scene, report.stepping)}};
   Json& errors = json["errors"] = Json::object();
   if (report.errors) {
     errors["reference"] = report.errors->reference;
@@ -105,6 +120,8 @@ std::string run_json(const RunReport& report) {
     errors["reference"] = nullptr;
     errors["reason"] = report.no_errors_because;
   }
+  Json& warnings = json["warnings"] = Json::array();
+  for (const auto& [code, said] : result.warnings) warnings.push_back({{"code", code}, {"text", said}});
   const HistoryRow& end = result.end;
   json["energy"] = {{"kinetic", end.kinetic},
                     {"stored", end.stored},
@@ -154,8 +171,10 @@ std::string run_summary(const RunReport& report) {
   }
   text += " = " + std::to_string(result.final.size()) + " particles\n";
   text += "  time      " + std::to_string(result.steps) + " steps of " + brief(stepping.time_step) +
-          " s to t = " + to_text(result.end.time) + " s; the critical step is " +
-          brief(stepping.critical_time_step) + " s";
+          " s to t = " + to_text(result.end.time) + " s; " +
+          (std::isfinite(stepping.critical_time_step)
+               ? "the critical step is " + brief(stepping.critical_time_step) + " s"
+               : std::string("no step is critical"));
   if (const double met = result.largest_step_fraction;
       met > 1.0 && stepping.time_step <= stepping.critical_time_step)
     text += ", and the step was " + brief(met) + " of it for a while";
@@ -184,6 +203,7 @@ std::string run_summary(const RunReport& report) {
           " of their magnitudes\n";
   text +=
       "  mass      " + brief(end.mass) + " kg/m^2, changed by " + brief(end.mass - result.start.mass) + "\n";
+  for (const Warning& warning : result.warnings) text += "  warning   " + warning.code + "\n";
   return text;
 }
 

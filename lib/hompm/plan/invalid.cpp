@@ -71,9 +71,9 @@ void throw_negative_density(const State& state, double position, double density)
   const auto nearest = std::min_element(x.begin(), x.end(), [&](double a, double b) {
     return std::abs(a - position) < std::abs(b - position);
   });
-  invalid(state, number(state, static_cast<std::size_t>(nearest - x.begin())),
-          "the density spline is not positive at x = " + text(position) + " m: " + text(density) +
-              " kg/m^3; the front is too steep for the particles there, use more of them");
+  throw SteepFront(state.step, state.time, number(state, static_cast<std::size_t>(nearest - x.begin())),
+                   "the density spline is not positive at x = " + text(position) + " m: " + text(density) +
+                       " kg/m^3; the front is too steep for the particles there");
 }
 
 void throw_singular_mass(const State& state, std::size_t function) {

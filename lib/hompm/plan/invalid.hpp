@@ -3,9 +3,16 @@
 
 #include <string>
 
+#include <hompm/error.hpp>
 #include <hompm/plan/state.hpp>
 
 namespace hompm::detail {
+
+/// A front too steep for the spline through the densities; what helps depends on the scene.
+class SteepFront : public InvalidRun {
+ public:
+  using InvalidRun::InvalidRun;
+};
 
 /// Each throws `InvalidRun` with the step under way, its time, and the particle where there is one.
 /// "[−1, 2] m"

@@ -45,6 +45,10 @@ struct Plan {
   /// Each adds to one stress (Pa) per particle what acts beside that of the law.
   std::vector<std::function<void(const State&, std::vector<double>&)>> extra_stresses;
 
+  /// For each gap at an end, when it will be shut at the present velocity, s from now; infinite for one that
+  /// is shut or opens.
+  std::vector<std::function<double(const State&)>> arrivals;
+
   [[nodiscard]] const std::vector<Stage>& operator[](Phase phase) const {
     return phases[static_cast<std::size_t>(phase)];
   }
@@ -88,6 +92,7 @@ struct Coupling {
   std::string called_by;
   std::size_t left;  ///< the body on the left; the other is the next one
   std::function<void(State& left, State& right)> run;
+  std::function<double(const State& left, const State& right)> arrival = {};  ///< as `Plan::arrivals`
 };
 
 /// What an effect between two bodies gets when it joins their plans.
@@ -98,8 +103,9 @@ struct PairBuilder {
   std::vector<Coupling>& couplings;
   std::string called_by;
 
-  void add(Phase phase, std::string name, std::function<void(State&, State&)> run) const {
-    couplings.push_back({phase, std::move(name), called_by, index, std::move(run)});
+  void add(Phase phase, std::string name, std::function<void(State&, State&)> run,
+           std::function<double(const State&, const State&)> arrival = {}) const {
+    couplings.push_back({phase, std::move(name), called_by, index, std::move(run), std::move(arrival)});
   }
 };
 

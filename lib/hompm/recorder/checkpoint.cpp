@@ -21,8 +21,8 @@ template <class Any, class Visit>
 void visit_sums(Any& point, Visit visit) {
   // Every member is named, so that a new one does not compile before it has its place here.
   auto& [states, extremes, supplied, quiet_steps] = point;
-  auto& [residual, momentum_residual, internal_force_sum, energy, momentum, step_fraction, wave_speed] =
-      extremes;
+  auto& [residual, momentum_residual, internal_force_sum, energy, momentum, step_fraction, wave_speed, strain,
+         dissipated] = extremes;
   visit(residual);
   visit(momentum_residual);
   visit(internal_force_sum);
@@ -30,6 +30,8 @@ void visit_sums(Any& point, Visit visit) {
   visit(momentum);
   visit(step_fraction);
   visit(wave_speed);
+  visit(strain);
+  visit(dissipated);
   visit(supplied);
 }
 

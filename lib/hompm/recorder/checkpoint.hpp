@@ -17,7 +17,7 @@ class CheckpointError : public FileError {
 };
 
 /// Of the layout of the bytes in a checkpoint; only this one is read.
-inline constexpr std::uint64_t checkpoint_format = 3;
+inline constexpr std::uint64_t checkpoint_format = 4;
 
 /// Everything a run is and has reported so far.
 struct Checkpoint {

@@ -46,30 +46,42 @@ ReferenceWatch part_of(const ReferenceWatch& watch, double from, double to) {
   return [=](double part) { watch(from + (to - from) * part); };
 }
 
-/// ‖coarse − fine‖₂ / ‖fine‖₂; 0 where the field vanishes.
-double relative_distance(const std::vector<double>& coarse, const std::vector<double>& fine) {
-  double difference = 0.0;
-  double norm = 0.0;
-  for (std::size_t i = 0; i < fine.size(); ++i) {
-    difference += (coarse[i] - fine[i]) * (coarse[i] - fine[i]);
-    norm += fine[i] * fine[i];
-  }
-  return norm > 0.0 ? std::sqrt(difference / norm) : 0.0;
+double norm(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
 }
 
-/// Lets a coarser solution run along, whose distance is the estimate of the error.
-Reference estimated(std::string description, FieldsAt fine, FieldsAt coarse) {
+/// ‖coarse − fine‖₂ over ‖fine‖₂, or over a thousandth of `scale` where the field passes through zero; 0
+/// where there is neither.
+double relative_distance(const std::vector<double>& coarse, const std::vector<double>& fine, double scale) {
+  double difference = 0.0;
+  for (std::size_t i = 0; i < fine.size(); ++i) difference += (coarse[i] - fine[i]) * (coarse[i] - fine[i]);
+  const double size = std::max(norm(fine), 1e-3 * scale);
+  return size > 0.0 ? std::sqrt(difference) / size : 0.0;
+}
+
+/// Lets a coarser solution run along, whose distance is the estimate of the error. A wave has strain v/c, and
+/// over the body the displacement L v/c: by that each field tells how large the others are at other times.
+Reference estimated(const Scene& scene, std::string description, FieldsAt fine, FieldsAt coarse) {
   const auto estimate = std::make_shared<ReferenceErrors>();
-  const auto at = [fine = std::move(fine), coarse = std::move(coarse), estimate](double time,
-                                                                                 std::span<const double> X) {
+  const double E = scene.material.youngs_modulus;
+  const double length = scene.body.length;
+  const double speed = std::sqrt(E / scene.material.density);
+  const auto at = [=, fine = std::move(fine), coarse = std::move(coarse)](double time,
+                                                                          std::span<const double> X) {
     ReferenceFields fields = fine(time, X);
     const ReferenceFields other = coarse(time, X);
-    *estimate = {.displacement = relative_distance(other.displacement, fields.displacement),
-                 .velocity = relative_distance(other.velocity, fields.velocity),
-                 .stress = relative_distance(other.stress, fields.stress)};
+    const double u = norm(fields.displacement) / length;
+    const double v = norm(fields.velocity) / speed;
+    const double s = norm(fields.stress) / E;
+    *estimate = {
+        .displacement = relative_distance(other.displacement, fields.displacement, length * std::max(v, s)),
+        .velocity = relative_distance(other.velocity, fields.velocity, speed * std::max(u, s)),
+        .stress = relative_distance(other.stress, fields.stress, E * std::max(u, v))};
     return fields;
   };
-  return {std::move(description), at, [estimate] { return *estimate; }};
+  return {std::move(description), at, [estimate] { return *estimate; }, scene.material.law != "linear"};
 }
 
 /// A scene seen from the other side: X becomes L − X.
@@ -124,9 +136,9 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
   }
   if (scene.material.law == "rate") {
     const GasColumn column{scene.body.length, scene.material.density, speed, acceleration};
-    return estimated("column of large strains, method of characteristics (extrapolated net, 8th order)",
-                     gas_column(column, 32, part_of(watch, 0.0, 0.8)),
-                     gas_column(column, 16, part_of(watch, 0.8, 1.0)));
+    return estimated(
+        scene, "column of large strains, method of characteristics (extrapolated net, 8th order)",
+        gas_column(column, 32, part_of(watch, 0.0, 0.8)), gas_column(column, 16, part_of(watch, 0.8, 1.0)));
   }
   return std::nullopt;
 }
@@ -233,7 +245,8 @@ std::optional<Reference> reference_at_origin(const Scene& scene, const Reference
     const auto all = kelvin_voigt_bar(scene, *loads, 1.0);
     const auto half = kelvin_voigt_bar(scene, *loads, 0.5);
     if (all && half)
-      return estimated("bar of small strains with viscosity, sum of its modes", watched(*all, watch), *half);
+      return estimated(scene, "bar of small strains with viscosity, sum of its modes", watched(*all, watch),
+                       *half);
   }
   Scene part = scene;
   const int parts = repetitions(scene, *loads);
@@ -250,7 +263,7 @@ std::optional<Reference> reference_at_origin(const Scene& scene, const Reference
     at = repeated(at, part.body.length);
     with_half = repeated(with_half, part.body.length);
   }
-  return estimated("method of lines (Legendre spectral elements, Runge-Kutta)", std::move(at),
+  return estimated(scene, "method of lines (Legendre spectral elements, Runge-Kutta)", std::move(at),
                    std::move(with_half));
 }
 

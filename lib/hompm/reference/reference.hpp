@@ -40,6 +40,7 @@ struct Reference {
   /// Own errors at the last call of `at`: the difference to a solution with half the resolution, which is an
   /// upper estimate. 0 for a closed form, and before the first call.
   std::function<ReferenceErrors()> estimated_error;
+  bool steepens = false;  ///< its waves can become shocks: the law is not linear
 };
 
 /// The reference solution of a scene, or nothing where none is known (local damping before rest, say).

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/numerics/smooth_step.hpp>
 #include <hompm/scene/amplitude.hpp>
@@ -18,6 +20,11 @@ std::optional<double> Amplitude::final() const {
   if (duration > 0.0) return 0.0;
   if (frequency > 0.0) return std::nullopt;
   return 1.0;
+}
+
+double Amplitude::settled_from() const {
+  if (duration > 0.0) return duration;
+  return frequency > 0.0 ? std::numeric_limits<double>::infinity() : ramp_time;
 }
 
 Amplitude amplitude_of(const EffectSpec& spec) {

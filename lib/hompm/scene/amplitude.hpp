@@ -20,6 +20,8 @@ struct Amplitude {
   [[nodiscard]] bool smooth() const { return ramp_time > 0.0; }
   /// What is left in the end; nothing where the load oscillates for ever.
   [[nodiscard]] std::optional<double> final() const;
+  /// From when on it no longer changes, s; infinite where the load oscillates for ever.
+  [[nodiscard]] double settled_from() const;
 };
 
 /// That of an effect by its parameters ramp_time, frequency, duration; 0 where it has none of that name.

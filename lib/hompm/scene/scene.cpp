@@ -5,6 +5,24 @@
 
 namespace hompm {
 
+namespace {
+
+template <class Value>
+const Value& parameter(const EffectSpec& spec, const std::string& key, const char* kind) {
+  const auto said = spec.parameters.find(key);
+  const Value* value = said == spec.parameters.end() ? nullptr : std::get_if<Value>(&said->second);
+  if (value != nullptr) return *value;
+  throw SceneError(spec.origin, "the effect " + spec.type + " needs the " + kind + " `" + key + '`');
+}
+
+}  // namespace
+
+double EffectSpec::number(const std::string& key) const { return parameter<double>(*this, key, "number"); }
+
+const std::string& EffectSpec::text(const std::string& key) const {
+  return parameter<std::string>(*this, key, "word");
+}
+
 double InitialField::at(double place, double length) const {
   if (shape == "uniform") return amplitude;
   if (shape == "linear") return amplitude + gradient.value_or(0.0) * (place * length);

@@ -53,6 +53,12 @@ struct Ends {
 
 struct EffectType;
 
+/// What a user should know of a scene or a run that goes on all the same.
+struct Warning {
+  std::string code;  ///< stays the same from version to version: "large-strain"
+  std::string text;  ///< what is wrong, and what to take instead
+};
+
 /// One `[[effect]]` table. Which parameters it has is the business of the effect (effects/registry.hpp).
 struct EffectSpec {
   using Value = std::variant<double, std::int64_t, std::string>;
@@ -62,10 +68,9 @@ struct EffectSpec {
   /// The body it acts on, of a coupling the left one; on every one where it is not said.
   std::optional<std::int64_t> body = {};
 
-  [[nodiscard]] double number(const std::string& key) const { return std::get<double>(parameters.at(key)); }
-  [[nodiscard]] const std::string& text(const std::string& key) const {
-    return std::get<std::string>(parameters.at(key));
-  }
+  /// The parameter `key`. Both throw `SceneError` where the effect has no such number or word.
+  [[nodiscard]] double number(const std::string& key) const;
+  [[nodiscard]] const std::string& text(const std::string& key) const;
 };
 
 /// Exactly one of `time_step`, `courant`, `step_fraction` is set.
@@ -90,9 +95,10 @@ struct GridSpec {
 };
 
 /// The run ends as soon as the body is at rest: when no particle has moved faster than `speed` for the time a
-/// wave takes to travel the body and back.
+/// wave takes to travel the body and back, while no load changed and no gap was about to close.
 struct Rest {
-  double speed = 0.0;  ///< m/s
+  double speed = 0.0;              ///< m/s
+  std::optional<double> earliest;  ///< s, before which the run does not end
 };
 
 struct OutputSpec {
@@ -127,6 +133,9 @@ struct Scene {
 
   /// Where each key was said ("scheme.cells", "effect[0].acceleration"); a key left to its default is absent.
   std::map<std::string, Origin> origins;
+
+  /// What reading it had to tell.
+  std::vector<Warning> warnings;
 };
 
 /// The scenes of all bodies: `bodies`, or the scene itself.

@@ -1,5 +1,6 @@
 // What the keys of a body demand of each other.
 #include <cmath>
+#include <limits>
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/reading.hpp>
@@ -34,6 +35,41 @@ void check_grid(Reading& reading) {
   if (cells > 1e8)
     reading.report(reading.said.where(scene.grid.to ? "grid.to" : "grid.from"),
                    "the grid must have at most 1e8 cells, not " + toml_number(cells));
+}
+
+/// Positions must tell neighbouring particles apart, to six digits of their distance.
+void check_digits(Reading& reading) {
+  const Scene& scene = reading.scene;
+  for (const std::string key : {"body.length", "scheme.cells", "scheme.particles_per_cell"})
+    if (!reading.has(key)) return;
+  const double length = scene.body.length;
+  const double width = length / scene.scheme.cells;
+  const double distance = width / scene.scheme.particles_per_cell;
+  const double beyond = scene.scheme.margin_cells * width;
+  double reach = 0.0;
+  std::string farthest;
+  const auto look = [&](const std::string& key, double place) {
+    if (!(std::abs(place) > reach)) return;
+    reach = std::abs(place);
+    farthest = key;
+  };
+  look("scheme.cells", length);
+  look("body.start", scene.body.left());
+  look("body.start", scene.body.right());
+  if (scene.ends.left == End::free) look("scheme.margin_cells", scene.body.left() - beyond);
+  if (scene.ends.right == End::free) look("scheme.margin_cells", scene.body.right() + beyond);
+  look("grid.from", scene.grid.from.value_or(0.0));
+  look("grid.to", scene.grid.to.value_or(0.0));
+  if (const auto& field = scene.initial_displacement)
+    for (const double place : {0.0, 0.5, 1.0})
+      look("initial.displacement.amplitude", scene.body.left() + place * length + field->at(place, length));
+  constexpr double digit = 1e6 * std::numeric_limits<double>::epsilon();
+  if (distance >= digit * reach) return;
+  reading.report(reading.said.where(reading.has(farthest) ? farthest : "body"),
+                 "particles " + toml_number(distance) + " m apart and " + toml_number(reach) +
+                     " m from the origin are not told apart well enough by positions of 16 digits: that far "
+                     "apart they must stay within " +
+                     toml_number(distance / digit) + " m; move the origin, or take fewer particles");
 }
 
 /// The gradient goes with the shape linear. Whether the field can be used.
@@ -106,6 +142,7 @@ void check_body(Reading& reading) {
   check_gradient(reading, "initial.velocity", reading.scene.initial_velocity, " (1/s)");
   check_displacement(reading);
   check_grid(reading);
+  check_digits(reading);
   check_held_ends(reading);
 }
 

@@ -1,8 +1,10 @@
 // Defaults that follow from other keys, and what keys demand of each other.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <tuple>
+#include <utility>
 
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/scene_file/keys.hpp>
@@ -15,6 +17,17 @@ namespace {
 void complete_name(Reading& reading) {
   if (reading.silent_on("case"))
     reading.scene.case_name = std::filesystem::path(reading.said.source).stem().string();
+  const auto no_part_of_a_path = [](char c) {
+    return c == '/' || std::iscntrl(static_cast<unsigned char>(c));
+  };
+  for (const auto& [key, name] :
+       {std::pair{"case", &reading.scene.case_name}, {"variant", &reading.scene.variant}})
+    if (reading.has(key) && std::ranges::any_of(*name, no_part_of_a_path))
+      reading.report(reading.said.where(key),
+                     '`' + std::string(key) +
+                         "` is part of the name of the output folder: it must not hold \"/\" or control "
+                         "characters, as \"" +
+                         printable(*name) + "\" does");
 }
 
 void complete_kinematics(Reading& reading) {

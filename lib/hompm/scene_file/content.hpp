@@ -8,9 +8,16 @@
 namespace hompm::detail {
 
 // What TOML has and no key of a scene can hold.
-struct Table {};
-struct Array {};
-struct Moment {};  ///< a date or a time
+struct Table {
+  bool operator==(const Table&) const = default;
+};
+struct Array {
+  bool operator==(const Array&) const = default;
+};
+/// A date or a time.
+struct Moment {
+  bool operator==(const Moment&) const = default;
+};
 
 using Content = std::variant<bool, std::int64_t, double, std::string, Table, Array, Moment>;
 

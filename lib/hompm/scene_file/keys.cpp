@@ -74,9 +74,10 @@ std::vector<KeyRow> make_key_table() {
   const std::string one_of = "give exactly one of time_step, courant, step_fraction";
   const std::string particles = "at most " + std::to_string(most_particles) + " particles in all";
   return {
-      {"case", text, derived, "name of the file", "", "what the scene is called",
+      {"case", text, derived, "name of the file", "no / and no control character",
+       "what the scene is called; part of the name of the output folder",
        [](Scene& scene) -> Slot { return &scene.case_name; }},
-      {"variant", text, standard, "\"\"", "", "which of several scenes of one case",
+      {"variant", text, standard, "\"\"", "as case", "which of several scenes of one case",
        [](Scene& scene) -> Slot { return &scene.variant; }},
       {"title", text, standard, "\"\"", "", "one line about the scene",
        [](Scene& scene) -> Slot { return &scene.title; }},
@@ -135,8 +136,15 @@ std::vector<KeyRow> make_key_table() {
 
       {"rest.speed", positive("m/s"), missing, "", "",
        "the run also ends once no particle has moved faster for the time a wave takes through the body and "
-       "back",
+       "back, while no load changed and no gap was about to close",
        [](Scene& scene) -> Slot { return &scene.rest->speed; }},
+      {"rest.earliest",
+       {.type = ValueType::number, .unit = "s", .minimum = 0.0},
+       derived,
+       "0",
+       "",
+       "before which the run does not end, whatever is at rest",
+       [](Scene& scene) -> Slot { return &scene.rest->earliest; }},
 
       {"scheme.name", word(scheme_names()), standard, "\"tielen2017\"", "", "how the scene is discretised",
        [](Scene& scene) -> Slot { return &scene.scheme.name; }},

@@ -21,8 +21,8 @@ using Slot = std::variant<double*, int*, bool*, std::string*, std::optional<doub
 enum class Absent {
   missing,    ///< an error
   standard,   ///< the default is `KeyRow::standard`, TOML text
-  of_scheme,  ///< follows from the row of the table of schemes; another scheme said on the command line takes
-              ///< back what the file says of it
+  of_scheme,  ///< follows from the row of the table of schemes; with another scheme said on the command line
+              ///< the file's is kept only where it suits that
   derived,    ///< follows from other keys; `KeyRow::standard` says how, and `complete` in reading.hpp does it
 };
 

@@ -1,9 +1,12 @@
 // What the command line says in place of the file.
+#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
+#include <hompm/scheme/scheme.hpp>
 
 namespace hompm::detail {
 namespace {
@@ -68,6 +71,51 @@ std::optional<std::string> resolved(Reading& reading, const Override& said) {
   return effect_path(*index) + rest.substr(dot);
 }
 
+/// A scene that says this, of its effects nothing.
+Reading probe_of(Said said) {
+  const SaidValue* bodies = said.find("body");
+  if (bodies != nullptr && std::holds_alternative<Array>(bodies->content) && said.find("body[0]") != nullptr)
+    said = said_of_body(said, 0);
+  Reading probe{.said = std::move(said)};
+  read_keys(probe);
+  complete(probe);
+  return probe;
+}
+
+/// Another scheme takes the place of the file's, `owner`. What the file says of how it is discretised and the
+/// owner is by itself goes with the owner; of the rest what the new scheme can take is kept, and what it
+/// cannot is told.
+void keep_what_suits(Reading& reading, const SaidValue* owner, const SaidValue& wish,
+                     const std::map<std::string, SaidValue>& wishes) {
+  auto& values = reading.said.values;
+  std::vector<std::pair<const KeyRow*, SaidValue>> from_file;
+  for (const KeyRow& row : key_table()) {
+    const auto said = values.find(row.path);
+    if (row.absent != Absent::of_scheme || wishes.contains(row.path) || said == values.end()) continue;
+    from_file.emplace_back(&row, said->second);
+    values.erase(said);
+  }
+  if (from_file.empty()) return;
+  const std::size_t problems = probe_of(reading.said).problems.size();
+  Said before = reading.said;
+  before.values.erase("scheme.name");
+  if (owner != nullptr) before.values["scheme.name"] = *owner;
+  Scene own = probe_of(std::move(before)).scene;
+  for (const auto& [row, value] : from_file) {
+    // A degree is said to be had.
+    const bool is_own =
+        accepted(row->rule, parse_value(load_text(*row, own))) == accepted(row->rule, value.content);
+    if (is_own && row->path != "scheme.degree") continue;
+    values[row->path] = value;
+    const std::vector<Problem> with = probe_of(reading.said).problems;
+    if (with.size() <= problems) continue;
+    values.erase(row->path);
+    reading.scene.warnings.push_back({"dropped-key", wish.key.source + " drops `" + row->path +
+                                                         "` = " + shown(value.content) + " (" +
+                                                         value.key.text() + "): " + with.back().message});
+  }
+}
+
 }  // namespace
 
 void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
@@ -76,6 +124,11 @@ void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
     const auto path = resolved(reading, wish);
     if (!path) continue;
     const Origin origin = origin_of(wish);
+    if (const auto before = said.find(*path); before != said.end()) {
+      reading.report(origin, '`' + printable(*path) + "` is said twice, here and by " +
+                                 before->second.key.source + ": give it once");
+      continue;
+    }
     const Content content = parse_value(wish.value);
     if (std::holds_alternative<Table>(content) || std::holds_alternative<Array>(content)) {
       reading.report(origin, '`' + printable(wish.key) + "` takes one value, not " + shown(content));
@@ -84,17 +137,18 @@ void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
     }
   }
   auto& values = reading.said.values;
-  if (said.contains("scheme.name")) {
-    // What suits one scheme need not suit another.
-    for (const KeyRow& row : key_table())
-      if (row.absent == Absent::of_scheme) values.erase(row.path);
-  }
   const std::vector<std::string> steps{"scheme.time_step", "scheme.courant", "scheme.step_fraction"};
   for (const std::string& step : steps) {
     if (!said.contains(step)) continue;
     for (const std::string& other : steps) values.erase(other);
   }
-  for (auto& [path, value] : said) values[path] = std::move(value);
+  std::optional<SaidValue> owner;
+  if (const SaidValue* name = reading.said.find("scheme.name")) owner = *name;
+  for (const auto& [path, value] : said) values[path] = value;
+  const auto wish = said.find("scheme.name");
+  if (wish == said.end()) return;
+  const Content before = owner ? owner->content : parse_value(find_key("scheme.name")->standard);
+  if (wish->second.content != before) keep_what_suits(reading, owner ? &*owner : nullptr, wish->second, said);
 }
 
 }  // namespace hompm::detail

@@ -91,7 +91,10 @@ void read_bodies(Reading& reading, std::size_t count) {
     for (Problem& problem : own.problems)
       if (told.insert(problem.origin.text() + ' ' + problem.message).second)
         reading.problems.push_back(std::move(problem));
-    if (body == 0) reading.scene = own.scene;
+    if (body == 0) {
+      own.scene.warnings = std::move(reading.scene.warnings);
+      reading.scene = own.scene;
+    }
     std::erase_if(own.scene.effects, [&](const EffectSpec& effect) { return !concerns(own, effect); });
     scenes.push_back(std::move(own.scene));
   }

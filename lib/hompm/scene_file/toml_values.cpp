@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -62,9 +63,47 @@ Content content_of(const toml::node& node) {
   }
 }
 
+/// A number whose value is not what its text says: 1e-400 is not 0. `text` begins with it.
+bool differs(double value, std::string_view text) {
+  if (std::isnormal(value)) return false;
+  std::size_t at = 0;
+  while (at < text.size() && std::string_view("+-0123456789._").find(text[at]) != std::string_view::npos)
+    ++at;
+  const std::string_view digits = text.substr(0, at);
+  if (std::isfinite(value)) return digits.find_first_of("123456789") != std::string_view::npos;
+  return digits.find_first_of("0123456789") != std::string_view::npos;
+}
+
+/// What a number's text and value disagree on; a scene text by its lines.
+class Literals {
+ public:
+  explicit Literals(std::string_view text) {
+    for (std::size_t end = 0; end != std::string_view::npos; text.remove_prefix(end + 1)) {
+      end = text.find('\n');
+      lines_.push_back(text.substr(0, end));
+      if (end == std::string_view::npos) break;
+    }
+  }
+  /// Whether the value of a node is not what its text says.
+  [[nodiscard]] bool out_of_range(const toml::node& node) const {
+    const auto* value = node.as_floating_point();
+    if (value == nullptr || std::isnormal(value->get())) return false;
+    const toml::source_position& at = node.source().begin;
+    std::string_view text = lines_.at(at.line - 1);
+    for (toml::source_index column = 1; column < at.column && !text.empty();
+         ++column)  // characters, not bytes
+      do text.remove_prefix(1);
+      while (!text.empty() && (static_cast<unsigned char>(text.front()) & 0xC0U) == 0x80U);
+    return differs(value->get(), text);
+  }
+
+ private:
+  std::vector<std::string_view> lines_;
+};
+
 class Flattener {
  public:
-  explicit Flattener(Said& said) : said_(said) {}
+  Flattener(Said& said, std::string_view text) : said_(said), literals_(text) {}
 
   void add_table(const toml::table& table, const std::string& path, int depth) {
     for (const auto& [key, node] : table) {
@@ -75,6 +114,11 @@ class Flattener {
  private:
   void add(const toml::node& node, const std::string& path, const std::string& parent,
            const std::string& name, const toml::source_region& key, int depth) {
+    if (literals_.out_of_range(node))
+      throw SceneError(origin(node.source()),
+                       '`' + printable(path) +
+                           "` is too small or too large for a number: they are held in full from 2.2e-308 to "
+                           "1.8e308, and 0");
     said_.values[path] = {content_of(node), parent, name, origin(key), origin(node.source())};
     if (depth == deepest) return;
     if (const toml::table* table = node.as_table()) add_table(*table, path, depth + 1);
@@ -93,6 +137,7 @@ class Flattener {
   }
 
   Said& said_;
+  Literals literals_;
 };
 
 }  // namespace
@@ -131,7 +176,7 @@ Said read_toml(const std::string& text, const std::string& source) {
   }
   Said said{source, {}};
   try {
-    Flattener(said).add_table(toml::parse(std::string_view(text), source), "", 1);
+    Flattener(said, text).add_table(toml::parse(std::string_view(text), source), "", 1);
   } catch (const toml::parse_error& error) {
     const auto& at = error.source().begin;
     throw SceneError(Origin{source, static_cast<int>(at.line), static_cast<int>(at.column)},
@@ -148,8 +193,10 @@ Content parse_value(const std::string& text) {
   if (!overlong_name(text)) {
     try {
       // More than one key means that the text was no value but a piece of a file.
-      const toml::table table = toml::parse("value = " + text);
-      if (table.size() == 1) return content_of(*table.get("value"));
+      const std::string line = "value = " + text;
+      const toml::table table = toml::parse(line);
+      if (table.size() == 1 && !Literals(line).out_of_range(*table.get("value")))
+        return content_of(*table.get("value"));
     } catch (const toml::parse_error&) {
       return text;
     }

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/plan/invalid.hpp>
@@ -47,32 +49,57 @@ double looked_at(const State& state) {
 void Guards::look(const Simulation& simulation) {
   constexpr std::int64_t between_looks = 128;
   if (simulation.state().step % between_looks != 0) return;
-  double kinetic = 0.0, gravity = 0.0, external_work = 0.0;
+  HistoryRow row;
   for (std::size_t body = 0; body < simulation.bodies(); ++body) {
     const State& state = simulation.state(body);
-    kinetic += looked_at(state);
-    external_work += state.balance.external_work;
-    for (const auto& potential : simulation.plan(body).potentials) gravity += potential(state);
+    row.kinetic += looked_at(state);
+    row.external_work += state.balance.external_work;
+    row.dissipated += state.balance.dissipated;
+    for (const auto& potential : simulation.plan(body).potentials) row.gravity += potential(state);
   }
-  compare(simulation.state(), kinetic, gravity, external_work);
+  compare(simulation.state(), row.kinetic, row);
 }
 
 void Guards::check(const Simulation& simulation, const HistoryRow& row) {
   for (const State& state : simulation.states()) looked_at(state);
-  compare(simulation.state(), row.kinetic + row.stored, row.gravity, row.external_work);
+  compare(simulation.state(), row.kinetic + row.stored, row);
 }
 
-void Guards::compare(const State& state, double energy, double gravity, double external_work) {
-  supplied_ = std::max({supplied_, std::abs(gravity), std::abs(external_work)});
+void Guards::compare(const State& state, double energy, const HistoryRow& row) {
+  supplied_ = std::max({supplied_, std::abs(row.gravity), std::abs(row.external_work)});
   // What a load does in its first steps is booked with a velocity that it has yet to make.
   constexpr std::int64_t first_steps = 4;
   constexpr double most = 10.0;
-  if (state.step < first_steps || energy <= most * (start_ + supplied_)) return;
-  throw InvalidRun(
-      state.step, state.time, -1,
-      "unstable: energy " + (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
-          " J/m^2, the start and the loads supplied " + to_text(start_ + supplied_) +
-          "; a step that is too large for the motion, or too few particles per cell, are the usual causes");
+  if (state.step < first_steps) return;
+  const double there = start_ + supplied_;
+  const auto of_what = [&] { return " J/m^2, the start and the loads supplied " + to_text(there) + "; "; };
+  const double bound = std::max(there, scale_);
+  if (!std::isfinite(energy) || energy > most * bound)
+    throw InvalidRun(
+        state.step, state.time, -1,
+        "unstable: energy " + (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
+            of_what() +
+            "a step that is too large for the motion, or too few particles per cell, are the usual causes");
+  if (-row.dissipated > bound)
+    throw InvalidRun(state.step, state.time, -1,
+                     "what can only take energy (walls, contact, dampings, viscosities, plasticity) gave " +
+                         to_text(-row.dissipated) + of_what() +
+                         "take a smaller time step, or more particles per cell");
+}
+
+double energy_scale(const Scene& scene, const std::vector<State>& states) {
+  double scale = 0.0;
+  const State* state = states.data();
+  for (const Scene* body : bodies_of(scene)) {
+    // A position is rounded by half its last digit, a strain by that over the distance of two particles.
+    const auto& x = state->particles.position;
+    const double reach = std::max(std::abs(x.front()), std::abs(x.back())) + body->body.length;
+    const double distance = body->body.length / static_cast<double>(x.size());
+    const double strain = 64.0 * std::numeric_limits<double>::epsilon() * reach / distance;
+    scale += outlook(*body).energy + body->material.youngs_modulus * body->body.length * strain * strain;
+    ++state;
+  }
+  return scale;
 }
 
 }  // namespace hompm::detail

@@ -13,13 +13,14 @@ namespace hompm::detail {
 ///
 /// The bound of the energy is ten times what was supplied. Unstable steps double the energy every few steps
 /// and pass any bound; what must not be stopped is a run that its scheme merely does badly, and FLIP with a
-/// shock has been seen to settle at nine times its energy (docs/stability.md, "Long runs").
+/// shock has been seen to settle at nine times its energy (docs/stability.md, "Long runs"). Loads that have
+/// only begun to act count with what they may supply. What can only take energy may not give as much.
 class Guards {
  public:
-  /// `start` is the first row of the run, `supplied` the largest energy that loads had supplied so far
-  /// (J/m²).
-  Guards(const HistoryRow& start, double supplied)
-      : start_(start.kinetic + start.stored), supplied_(supplied) {}
+  /// `start` is the first row of the run, `supplied` the largest energy that loads had supplied so far,
+  /// `scale` that of the scene (J/m²).
+  Guards(const HistoryRow& start, double supplied, double scale)
+      : start_(start.kinetic + start.stored), supplied_(supplied), scale_(scale) {}
 
   /// After each step; looks at every 128th, and then at what can be had in one pass: kinetic energy.
   void look(const Simulation& simulation);
@@ -30,10 +31,14 @@ class Guards {
   [[nodiscard]] double supplied() const { return supplied_; }
 
  private:
-  void compare(const State& state, double energy, double gravity, double external_work);
+  void compare(const State& state, double energy, const HistoryRow& row);
 
   double start_;
   double supplied_;
+  double scale_;
 };
+
+/// What the loads of a scene may supply, and what rounding of positions may store, J/m².
+double energy_scale(const Scene& scene, const std::vector<State>& states);
 
 }  // namespace hompm::detail

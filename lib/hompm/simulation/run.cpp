@@ -4,13 +4,16 @@
 #include <string>
 #include <utility>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
+#include <hompm/plan/invalid.hpp>
 #include <hompm/simulation/columns.hpp>
 #include <hompm/simulation/guards.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/simulation/step_watch.hpp>
+#include <hompm/simulation/warnings.hpp>
 
 namespace hompm {
 namespace {
@@ -23,12 +26,16 @@ bool is_due(std::int64_t step, std::int64_t steps, std::int64_t count) {
 }
 
 /// Tells when no particle has moved faster than the scene's `rest.speed` for the time a wave takes there and
-/// back. By positions, not velocities: what a particle's velocity has beyond the grid's moves nothing, and
-/// what the grid's has is taken back where relaxation balances it.
+/// back, while no load changed and no gap was to close before the end time. By positions, not velocities:
+/// what a particle's velocity has beyond the grid's moves nothing, and what the grid's has is taken back
+/// where relaxation balances it.
 class RestWatch {
  public:
   RestWatch(const Scene& scene, double time_step, const std::vector<State>& states, std::int64_t quiet_steps)
-      : longest_way_(scene.rest->speed * time_step), quiet_steps_(quiet_steps) {
+      : longest_way_(scene.rest->speed * time_step),
+        earliest_(scene.rest->earliest.value_or(0.0)),
+        end_time_(scene.end_time),
+        quiet_steps_(quiet_steps) {
     for (const State& state : states) {
       before_.push_back(state.particles.displacement);
       ways_.emplace_back(before_.back().size(), 0.0);
@@ -37,11 +44,14 @@ class RestWatch {
     for (const Scene* body : bodies_of(scene)) {
       const double wave_speed = std::sqrt(body->material.youngs_modulus / body->material.density);
       longest = std::max(longest, 2.0 * body->body.length / wave_speed);
+      settled_from_ = std::max(settled_from_, outlook(*body).settled_from);
     }
     steps_needed_ = static_cast<std::int64_t>(std::ceil(longest / time_step));
   }
-  bool at_rest(const std::vector<State>& states) {
-    bool quiet = true;
+  bool at_rest(const Simulation& simulation) {
+    const std::vector<State>& states = simulation.states();
+    const double time = states.front().time;
+    bool quiet = time >= settled_from_;
     longest_ = 0.0;
     for (std::size_t body = 0; body < before_.size(); ++body) {
       const auto& displacement = states[body].particles.displacement;
@@ -57,8 +67,9 @@ class RestWatch {
         before[i] = displacement[i];
       }
     }
+    quiet = quiet && !(time + simulation.next_meeting() < end_time_);
     quiet_steps_ = quiet ? quiet_steps_ + 1 : 0;
-    return quiet_steps_ >= steps_needed_;
+    return quiet_steps_ >= steps_needed_ && time >= earliest_;
   }
   [[nodiscard]] std::int64_t quiet_steps() const { return quiet_steps_; }
   /// Of the last step: the longest way of a particle (m), and whether that was back where it had come from.
@@ -66,13 +77,37 @@ class RestWatch {
   [[nodiscard]] bool to_and_fro() const { return to_and_fro_; }
 
  private:
-  double longest_way_;  ///< m, in one step
+  double longest_way_;          ///< m, in one step
+  double settled_from_ = 0.0;   ///< s
+  double earliest_, end_time_;  ///< s
   std::vector<std::vector<double>> before_, ways_;
   double longest_ = 0.0;
   bool to_and_fro_ = false;
   std::int64_t steps_needed_;
   std::int64_t quiet_steps_;
 };
+
+/// What helps where a front is too steep. What comes to a stop at once, at an end or another body, makes a
+/// shock, which is the steeper the more particles there are.
+std::string help_for_steep_front(const Scene& scene) {
+  const auto bodies = bodies_of(scene);
+  const bool spread = std::ranges::any_of(
+      scene.effects, [](const EffectSpec& spec) { return spec.type == "bulk-viscosity"; });
+  const bool stopped = std::ranges::any_of(bodies, [](const Scene* body) {
+    const auto& velocity = body->initial_velocity;
+    const auto moves = [&](double place) {
+      return velocity && velocity->at(place, body->body.length) != 0.0;
+    };
+    return (body->ends.left == End::fixed && moves(0.0)) || (body->ends.right == End::fixed && moves(1.0)) ||
+           std::ranges::any_of(body->effects,
+                               [&](const EffectSpec& spec) { return find_effect(*body, spec).holds_end; });
+  });
+  if (!stopped) return ", use more of them";
+  return std::string(": a shock, which more of them make steeper; ") +
+         (spread ? "raise the coefficients of the effect bulk-viscosity"
+                 : "the effect bulk-viscosity spreads it") +
+         (scene.scheme.name == "high-order" ? "" : ", or take scheme.name = \"high-order\"");
+}
 
 /// The same, with the cause where the watch on the critical step knows it.
 [[noreturn]] void throw_with_cause(const InvalidRun& error, double step_fraction) {
@@ -102,6 +137,17 @@ void accumulate(RunExtremes& result, const HistoryRow& row) {
   raise(result.largest_internal_force_sum, row.internal_force_sum);
   raise(result.largest_energy, row.kinetic + row.stored + std::abs(row.gravity));
   raise(result.largest_momentum, std::abs(row.momentum) + std::abs(row.impulse));
+  result.least_dissipated = std::min(result.least_dissipated, row.dissipated);
+}
+
+/// Of the bodies with a law for small strains, |λ − 1|.
+double largest_strain(const Simulation& simulation) {
+  double largest = 0.0;
+  for (const State& state : simulation.states())
+    if (!state.moves)
+      for (const double stretch : state.particles.stretch)
+        largest = std::max(largest, std::abs(stretch - 1.0));
+  return largest;
 }
 
 }  // namespace
@@ -111,6 +157,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
   numerics::check_floating_point();
   Simulation simulation(scene, stepping.time_step);
   detail::StepWatch step_watch(scene);
+  const double scale = detail::energy_scale(scene, simulation.states());
   RunResult result;
   result.start = result.end = simulation.history(0.0);
   if (from != nullptr) {
@@ -119,6 +166,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     static_cast<RunExtremes&>(result) = from->extremes;
   } else {
     accumulate(result, result.start);
+    result.largest_strain = largest_strain(simulation);
     result.largest_step_fraction = stepping.time_step / stepping.critical_time_step;
     result.largest_wave_speed = step_watch.fastest_wave(simulation.states());
     const Snapshot start = simulation.snapshot(0.0);
@@ -130,7 +178,8 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     if (observer.snapshot) observer.snapshot(start);
   }
 
-  detail::Guards guards(result.start, from != nullptr ? from->supplied : 0.0);
+  result.warnings = warnings_before(scene, stepping);
+  detail::Guards guards(result.start, from != nullptr ? from->supplied : 0.0, scale);
   std::optional<RestWatch> rest;
   if (scene.rest)
     rest.emplace(scene, stepping.time_step, simulation.states(), from != nullptr ? from->quiet_steps : 0);
@@ -143,10 +192,13 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
       step_watch.look(simulation.states(), result);
       guards.look(simulation);
 
-      result.at_rest = rest && rest->at_rest(simulation.states());
+      result.at_rest = rest && rest->at_rest(simulation);
       const bool last = step == stepping.steps || result.at_rest;
       const bool row_due = last || is_due(step, stepping.steps, scene.output.history);
       const bool snapshot_due = last || is_due(step, stepping.steps, scene.output.snapshots);
+      constexpr std::int64_t between_looks = 128;
+      if (row_due || step % between_looks == 0)
+        result.largest_strain = std::max(result.largest_strain, largest_strain(simulation));
       if (row_due || snapshot_due) {
         const double time = stepping.time(step, scene.end_time);
         result.end = simulation.history(time);
@@ -169,6 +221,9 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
                              rest ? rest->quiet_steps() : 0});
       if (result.stopped) break;
     }
+  } catch (const detail::SteepFront& error) {
+    throw_with_cause({error.step, error.time, error.particle, error.reason + help_for_steep_front(scene)},
+                     result.largest_step_fraction);
   } catch (const InvalidRun& error) {
     throw_with_cause(error, result.largest_step_fraction);
   }
@@ -176,6 +231,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
     result.last_speed = rest->longest() / stepping.time_step;
     result.to_and_fro = rest->to_and_fro();
   }
+  for (Warning& found : warnings_after(result, scale)) result.warnings.push_back(std::move(found));
   return result;
 }
 

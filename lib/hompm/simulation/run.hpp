@@ -20,6 +20,8 @@ struct RunExtremes {
   double largest_momentum = 0.0;            ///< of |Σ m v| + |impulse|, kg/(m s)
   double largest_step_fraction = 0.0;       ///< of the time step over the critical one
   double largest_wave_speed = 0.0;          ///< in the body, m/s, where it was looked at
+  double largest_strain = 0.0;              ///< |λ − 1| with the law linear, where it was looked at
+  double least_dissipated = 0.0;            ///< J/m²: below 0 where dissipation gave energy
 };
 
 struct RunResult : RunExtremes {
@@ -32,6 +34,7 @@ struct RunResult : RunExtremes {
   bool to_and_fro = false;
   HistoryRow start, end;
   Snapshot final;
+  std::vector<Warning> warnings;  ///< `warnings_before` and `warnings_after` (simulation/warnings.hpp)
 };
 
 /// Where a run stands after a step: with the scene all that the rest of the run depends on.

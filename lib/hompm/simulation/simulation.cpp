@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -192,6 +193,16 @@ Snapshot Simulation::snapshot(double time) const {
     if (states.size() > 1) s.body.resize(s.size(), static_cast<std::int64_t>(body));
   }
   return s;
+}
+
+double Simulation::next_meeting() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (std::size_t body = 0; body < bodies(); ++body)
+    for (const auto& arrival : plans_[body].arrivals) next = std::min(next, arrival(states_[body]));
+  for (const Coupling& coupling : couplings_)
+    if (coupling.arrival)
+      next = std::min(next, coupling.arrival(states_[coupling.left], states_[coupling.left + 1]));
+  return next;
 }
 
 double Simulation::total_energy(const HistoryRow& row) const {

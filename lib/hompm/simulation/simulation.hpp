@@ -36,6 +36,9 @@ class Simulation {
   /// Particle fields and balances now, with time stamp `time` (s).
   [[nodiscard]] Snapshot snapshot(double time) const;
   [[nodiscard]] HistoryRow history(double time) const;
+  /// How long, at the present velocities, until the next gap between an end and what it can meet is shut, s;
+  /// infinite where none closes.
+  [[nodiscard]] double next_meeting() const;
 
  private:
   [[nodiscard]] double total_energy(const HistoryRow& row) const;

@@ -2,10 +2,13 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/simulation/critical_step.hpp>
+#include <hompm/simulation/resolution.hpp>
 #include <hompm/simulation/time_step.hpp>
 
 namespace hompm {
@@ -20,6 +23,10 @@ double asked_step(const Scene& scene, double critical) {
   const SchemeSpec& scheme = scene.scheme;
   if (scheme.time_step) return *scheme.time_step;
   if (scheme.step_fraction) return *scheme.step_fraction * critical;
+  if (!scheme.courant)
+    throw SceneError(Origin{"scheme"},
+                     "the time step is missing: give one of scheme.time_step (s), "
+                     "scheme.courant, scheme.step_fraction");
   double shortest = std::numeric_limits<double>::infinity();  // time of a wave through a cell
   for (const Scene* body : bodies_of(scene)) {
     const double wave_speed = std::sqrt(body->material.youngs_modulus / body->material.density);
@@ -62,9 +69,22 @@ TimeStepping time_stepping(const Scene& scene) {
                                  to_text(result.critical_time_step) +
                                  " s (scheme.allow_unstable = true runs it all the same)");
 
+  // Where next to nothing holds motions back, a part of the critical step says nothing.
+  constexpr double longest_in_runs = 100.0;
+  if (!scene.scheme.time_step && !(asked <= longest_in_runs * scene.end_time))
+    throw SceneError(origin, key + ": that makes a time step of " +
+                                 (std::isfinite(asked) ? to_text(asked) + " s" : "no end") +
+                                 " for a run of " + to_text(scene.end_time) +
+                                 " s: nothing in the body resists what the grid can move. Give "
+                                 "scheme.time_step (s) instead, " +
+                                 to_text(scene.end_time / 100.0) + " for a hundred steps");
   const Count count = count_steps(scene, asked, origin, key);
   result.steps = count.steps;
   result.time_step = count.whole ? asked : scene.end_time / static_cast<double>(count.steps);
+  std::vector<Problem> too_fine;
+  for (const detail::Unresolved& found : detail::unresolved(scene, result.time_step))
+    if (found.refused) too_fine.push_back({found.origin, found.text});
+  if (!too_fine.empty()) throw SceneError(std::move(too_fine));
   return result;
 }
 

@@ -20,8 +20,10 @@ struct TimeStepping {
 
 /// The step that `scene.scheme` asks for by `time_step`, `courant` (c Δt/h) or `step_fraction` (of the
 /// critical step), shortened where needed so that a whole number of steps ends at `end_time`. Throws
-/// `SceneError` for a step above the critical one, unless `allow_unstable` is set, naming the limit; and for
-/// more than 10¹⁰ steps. Throws `ArithmeticError` as `run` does.
+/// `SceneError` for a step above the critical one, unless `allow_unstable` is set, naming the limit; for more
+/// than 10¹⁰ steps; for a part of the critical step that is far longer than the run; and for loads and
+/// initial fields that would act as something else (simulation/resolution.hpp), naming the number to take.
+/// Throws `ArithmeticError` as `run` does.
 TimeStepping time_stepping(const Scene& scene);
 
 /// That of a run which goes on with the step it had (s), to an end time that may be later than it was: where

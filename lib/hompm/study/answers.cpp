@@ -1,34 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 #include <hompm/scene_file/content.hpp>
 #include <hompm/study/answers.hpp>
 
 namespace hompm::study {
 namespace {
-
-/// The front of a scheme by number of cells tells whether it still converges: the least error of each grid.
-bool still_converges(const Choice& scheme) {
-  std::map<int, double> least;
-  for (std::size_t i = 0; i < scheme.outcomes.size(); ++i) {
-    const auto [at, first] = least.try_emplace(scheme.outcomes[i]->record.cells, scheme.candidates[i].error);
-    if (!first) at->second = std::min(at->second, scheme.candidates[i].error);
-  }
-  if (least.size() < 2) return true;  // the grid was not varied: nothing speaks against it
-  const auto finest = std::prev(least.end());
-  const auto before = std::prev(finest);
-  const double refined = static_cast<double>(finest->first) / before->first;
-  return before->second / finest->second > std::sqrt(refined);  // at least of order ½
-}
-
-std::vector<Candidate> front_of(const Choice& scheme) {
-  std::vector<Candidate> front;
-  for (const std::size_t i : pareto_front(scheme.candidates)) front.push_back(scheme.candidates[i]);
-  return front;
-}
 
 double least_error(const Choice& choice) {
   const auto least = std::min_element(choice.candidates.begin(), choice.candidates.end(),
@@ -41,16 +21,7 @@ std::string what_others_need(const Choice& scheme, const std::string& name, doub
   if (scheme.candidates.empty()) return who + " never ran";
   if (const auto best = cheapest(scheme.candidates, error))
     return who + " needs " + brief(scheme.candidates[*best].cost / cost) + " ×";
-  const std::string best = brief(least_error(scheme));
-  if (!still_converges(scheme)) return who + " never gets there (best " + best + ")";
-  auto front = front_of(scheme);
-  // The last points tell how it goes on; the first ones may not yet be in the range where the law holds.
-  if (front.size() > 4) front.erase(front.begin(), front.end() - 4);
-  const auto law = fit(front);
-  // Further than two decades a straight line is a guess.
-  if (law && law->exponent > 0.0 && error > 0.01 * least_error(scheme))
-    return who + " would need about " + brief(law->cost(error) / cost) + " × (best here " + best + ")";
-  return who + " does not get there in this sweep (best " + best + ")";
+  return who + " does not get there in this sweep (best " + brief(least_error(scheme)) + ")";
 }
 
 }  // namespace
@@ -131,11 +102,13 @@ std::string answers(const std::vector<Outcome>& outcomes, Cost cost) {
 
 std::string remarks(const std::vector<Outcome>& outcomes) {
   std::string text;
-  std::map<Status, int> failed;
+  std::map<std::pair<Status, std::string>, int> failed;
   const Outcome* judged = nullptr;
   double own = 0.0;
   for (const Outcome& outcome : outcomes) {
-    if (outcome.record.status != Status::ok) ++failed[outcome.record.status];
+    const Record& record = outcome.record;
+    if (record.status != Status::ok)
+      ++failed[{record.status, record.reason.substr(0, record.reason.find('\n'))}];
     if (!outcome.record.errors) continue;
     judged = &outcome;
     own = std::max(own, outcome.record.errors->reference_errors.displacement);
@@ -143,9 +116,15 @@ std::string remarks(const std::vector<Outcome>& outcomes) {
   if (judged != nullptr)
     text += "reference: " + judged->record.errors->reference + "; its own error in displacement is " +
             (own > 0.0 ? brief(own) : std::string("that of rounding")) + "\n";
-  for (const auto& [status, count] : failed)
+  constexpr std::size_t most_reasons = 20;
+  std::size_t told = 0;
+  for (const auto& [why, count] : failed) {
+    if (++told > most_reasons) break;
     text += std::to_string(count) + " of " + std::to_string(outcomes.size()) +
-            " points: " + to_string(status) + "\n";
+            " points: " + to_string(why.first) + ": " + why.second + "\n";
+  }
+  if (failed.size() > most_reasons)
+    text += "and " + std::to_string(failed.size() - most_reasons) + " more reasons, in points.csv\n";
   return text;
 }
 

@@ -18,15 +18,14 @@ std::string setting_text(const Outcome& outcome);
 std::string command_text(const Study& study, const Outcome& outcome);
 
 /// One sentence: what reaches `error` (relative L2) of the field at the least cost, and how much more each
-/// other scheme needs. A scheme that got worse or stood still when its grid was refined never gets there; one
-/// that the sweep was too short for is continued by the power law of its front, with "about".
+/// other scheme needs, or its best error where no setting of the sweep gets there.
 std::string answer(const std::vector<Outcome>& outcomes, Field field, Cost cost, double error);
 
 /// The sentences for 1e-1, 1e-2, …, as long as something gets there, for each field; one a line, each field
 /// under a heading.
 std::string answers(const std::vector<Outcome>& outcomes, Cost cost);
 
-/// What each field's reference is, and what failed, in lines.
+/// What each field's reference is, and what failed and why, in lines.
 std::string remarks(const std::vector<Outcome>& outcomes);
 
 }  // namespace hompm::study
