@@ -130,7 +130,7 @@ TEST_CASE("hompm-diff draws pictures through gnuplot", "[foreign]") {
   SECTION("a folder that cannot be written is told") {
     result = csv.diff("--picture /proc/b.svg");
     CHECK(result.exit_code == 5);
-    CHECK(contains(result.err, "hompm-diff: cannot create the folder /proc"));
+    CHECK(contains(result.err, "hompm-diff: cannot write in /proc"));
   }
   SECTION("nothing to draw is told") {
     write_file(csv.path, "time,X,density\n0,0.048828125,1\n");
