@@ -1,4 +1,5 @@
 """Small changes of the library's code: which there are, and code that holds many of them at once behind a switch."""
+import bisect
 import dataclasses
 import hashlib
 import re
@@ -14,6 +15,8 @@ SWAPS = {
 NUMBER = re.compile(r"(?<![\w.'\"])(\d+\.\d+(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+|\d+)(?![\w.'\"])")
 INDEX = re.compile(r"(?<=[\w)\]])\[([^\[\]]+)\]")
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:[^"\\\n]|\\.)*"|(?<!\w)\'(?:[^\'\\\n]|\\.)*\'', re.DOTALL)
+COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|("(?:[^"\\\n]|\\.)*")', re.DOTALL)
+CONTAINER = re.compile(r"\s*(template\b.*)?(inline |export )*(namespace|class|struct|union|enum|extern)\b[^()=]*$", re.DOTALL)
 SKIPPED_LINE = re.compile(r"\s*(#|using |namespace |template|static_assert|static constexpr bool|throw |\[\[)")
 
 
@@ -26,6 +29,7 @@ class Mutant:
     kind: str
     text: str  # what stands there instead
     before: str  # the whole line
+    function: str = ""  # a digest of the code of the function, or other declaration, around it
 
     @property
     def after(self):
@@ -33,7 +37,8 @@ class Mutant:
 
     @property
     def identity(self):
-        return digest(self.path + self.before.strip() + "\n" + self.after.strip())[:8]
+        """Of the change and the file's name: neither other lines nor a move to another folder give another one."""
+        return digest(self.path.split("/")[-1] + self.before.strip() + "\n" + self.after.strip())[:8]
 
     @property
     def room(self):
@@ -49,13 +54,40 @@ def without_strings_and_comments(text):
     return NOT_CODE.sub(lambda match: re.sub(r"[^\n]", "\0", match[0]), text)
 
 
+def declarations(text):
+    """Where each function or other declaration outside functions begins, and a digest of its code, without comments and blanks.
+
+    Those of a class or namespace stand for themselves; what is between them belongs to the next.
+    """
+    code = without_strings_and_comments(text)
+    starts, digests, begin, depth, containers = [], [], 0, 0, 0
+    for place, c in enumerate(code):
+        if c == "{" and depth == 0 and CONTAINER.match(re.sub(r"#[^\n]*|\0", " ", code[begin:place])):
+            containers += 1
+        elif c in "{([":
+            depth += 1
+            continue
+        elif c in "})]" and depth > 0:
+            depth -= 1
+            if c != "}" or depth > 0:
+                continue
+        elif c == "}" and containers > 0:
+            containers -= 1
+        elif c != ";" or depth > 0:
+            continue
+        starts.append(begin)
+        digests.append(digest("".join(COMMENT.sub(lambda match: match[1] or "", text[begin:place + 1]).split()))[:12])
+        begin = place + 1
+    return starts, digests
+
+
 def changed_number(text):
     if text.isdigit():
         return str(int(text) + 1)
     return "1.0" if float(text) == 0.0 else repr(2.0 * float(text))
 
 
-def mutants_of_line(path, number, line, code):
+def mutants_of_line(path, number, line, code, function):
     if SKIPPED_LINE.match(code):
         return
     for kind, swaps in SWAPS.items():
@@ -67,18 +99,23 @@ def mutants_of_line(path, number, line, code):
                     continue  # a pointer
                 if kind == "sign" and code[match.end():match.end() + 1] in ("-", ">", "="):
                     continue
-                yield Mutant(path, number, match.start(), match.end(), kind, new, line)
+                yield Mutant(path, number, match.start(), match.end(), kind, new, line, function)
     for match in NUMBER.finditer(code):
-        yield Mutant(path, number, match.start(), match.end(), "constant", changed_number(match[0]), line)
+        yield Mutant(path, number, match.start(), match.end(), "constant", changed_number(match[0]), line, function)
     for match in INDEX.finditer(code):
         for step in (" + 1", " - 1"):
-            yield Mutant(path, number, match.end() - 1, match.end() - 1, "index", step, line)
+            yield Mutant(path, number, match.end() - 1, match.end() - 1, "index", step, line, function)
 
 
 def mutants_of_file(path, text):
     code = without_strings_and_comments(text).split("\n")
+    starts, digests = declarations(text)
+    place = 0
     for number, line in enumerate(text.split("\n"), start=1):
-        yield from mutants_of_line(path, number, line, code[number - 1])
+        first = place + len(line) - len(line.lstrip())
+        index = bisect.bisect_right(starts, first) - 1
+        yield from mutants_of_line(path, number, line, code[number - 1], digests[index] if index >= 0 else "")
+        place += len(line) + 1
 
 
 # One program for many mutants. The expression around a change, `a + b`, becomes `(hompm_mutant(7) ? (a - b) : (a + b))`: the

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """Breaks the library in small ways, one at a time, and counts how often the tests notice.
 
-    coverage/mutate.py [--count N] [--room ROOM ...] [--seconds S] [--again]     runs mutants, writes the table
-    coverage/mutate.py --list                                                    prints the mutants that would run
-    coverage/mutate.py --show ID                                                 prints one mutant as a difference
-    coverage/mutate.py --check                                                   checks the table, runs nothing
+    coverage/mutate.py --update [--count N] [--room ROOM ...] [--seconds S] [--again]  runs mutants without a verdict, writes the table
+    coverage/mutate.py --list                                                          prints the sample, with its verdicts
+    coverage/mutate.py --show ID                                                       prints one mutant as a difference
+    coverage/mutate.py --check                                                         checks verdicts and table, runs nothing
 
-The mutants are drawn by a fixed seed and named by what they change, so the same code gives the same sample. Results are kept
-in coverage/mutation.json; what is there is not run again without --again. Reasons for survivors stand in
-coverage/survivors.toml. Works on a copy of the tree in build/mutation, built once with all mutants in it, each behind a
-switch; a mutant is then run against the tests that reach it, the shortest first, until one fails. Exit code 1: a survivor
-without a reason, or a kill rate below the threshold.
+The mutants are drawn by a fixed seed and named by what they change, so the same code gives the same sample. Verdicts are kept
+in coverage/mutation.json, each with a digest of the function around the mutant: it holds until that function changes. Reasons for
+survivors stand in coverage/survivors.toml. Works on a copy of the tree in build/mutation, built once with all mutants in it, each behind a
+switch; a mutant is then run against the tests that reach it, the shortest first, until one fails. Exit code 1: a mutant of the
+sample without a verdict, a survivor without a reason, or a kill rate below the threshold.
 """
 import argparse
 import collections
@@ -103,11 +103,11 @@ def write_if_other(path, content):
 
 
 class Mutation:
-    """A build of the tests with all mutants of a sample in it."""
+    """A build of the tests with mutants in it."""
 
-    def __init__(self, sample):
-        self.numbers = {mutant: number for number, mutant in enumerate(sample, start=1)}
-        self.size = 4096 * (1 + len(sample) // 4096)
+    def __init__(self, mutants):
+        self.numbers = {mutant: number for number, mutant in enumerate(mutants, start=1)}
+        self.size = 4096 * (1 + len(mutants) // 4096)
         self.copy_tree()
         self.embed()
         self.readers = collections.Counter()
@@ -155,7 +155,8 @@ class Mutation:
     def build(self, *options):
         if not (BUILD / "build.ninja").exists():
             configured = run("cmake", "-S", TREE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
-                             f"-DCMAKE_CXX_FLAGS=-O1 -w -include {WORK / 'mutant_switch.hpp'}")
+                             f"-DCMAKE_CXX_FLAGS=-O1 -w -include {WORK / 'mutant_switch.hpp'}",
+                             *(["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []))
             if configured.returncode != 0:
                 return configured
         return run("ninja", "-C", BUILD, *options, *PROGRAMS, "hompm-run", "hompm-diff", "hompm-study")
@@ -262,10 +263,21 @@ def table(results):
     return "\n".join(text) + "\n"
 
 
-def complaints(results):
+def valid(results, sample):
+    """The verdicts of the sample that hold: those on functions that are as they were then."""
+    return {mutant.identity: results[mutant.identity] for mutant in sample
+            if results.get(mutant.identity, {}).get("function") == mutant.function}
+
+
+def complaints(results, sample):
     count, _, share = summary(results)
     known = reasons()
-    found = [f"{identity}: {entry['path']}: survives without a reason in {REASONS.name}"
+    found = []
+    missing = [mutant for mutant in sample if mutant.identity not in results]
+    if missing:
+        names = ", ".join(f"{mutant.identity} ({mutant.path}:{mutant.line})" for mutant in missing[:3])
+        found.append(f"{len(missing)} of {len(sample)} mutants of this code have no verdict: {names}, ...; run coverage/mutate.py --update")
+    found += [f"{identity}: {entry['path']}: survives without a reason in {REASONS.name}"
              for identity, entry in results.items() if entry["verdict"] == "survived" and identity not in known]
     found += [f"{identity}: a reason, but no such survivor" for identity in known
               if results.get(identity, {}).get("verdict") != "survived"]
@@ -275,17 +287,17 @@ def complaints(results):
 
 
 def run_mutants(sample, results, seconds, jobs):
-    """Those of the sample that have no result yet; all are in the build, so that it serves until the code changes."""
+    """Those of the sample that have no verdict."""
     missing = [mutant for mutant in sample if mutant.identity not in results]
     if not missing:
         return
-    mutation = Mutation(sample)
+    mutation = Mutation(missing)
     end = time.monotonic() + seconds
     commit = run("git", "-C", ROOT, "describe", "--always", "--dirty").stdout.strip()
 
     def keep(mutant, verdict):
         results[mutant.identity] = {"path": mutant.path, "room": mutant.room, "kind": mutant.kind, "before": mutant.before,
-                                    "after": mutant.after, "verdict": verdict, "commit": commit}
+                                    "after": mutant.after, "function": mutant.function, "verdict": verdict, "commit": commit}
         save(results)
         print(f"{verdict:12} {mutant.identity} {mutant.path}:{mutant.line}: {mutant.before.strip()}  ->  {mutant.after.strip()}",
               flush=True)
@@ -308,7 +320,8 @@ def main():
     parser.add_argument("--room", nargs="+", default=[], help="only these folders of lib/hompm")
     parser.add_argument("--seconds", type=float, default=1e9, help="begin no mutant after this time")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="mutants at a time")
-    parser.add_argument("--again", action="store_true", help="forget the results of earlier runs")
+    parser.add_argument("--again", action="store_true", help="forget the verdicts of earlier runs")
+    parser.add_argument("--update", action="store_true", help="run the mutants of the sample that have no verdict")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--show", metavar="ID")
     parser.add_argument("--check", action="store_true")
@@ -321,22 +334,24 @@ def main():
                 print(f"{mutant.path}:{mutant.line}\n-{mutant.before}\n+{mutant.after}")
                 return 0
         parser.error(f"no mutant {given.show} in this code")
-    results = {} if given.again else stored(RESULTS, {})
-    if not given.check:
-        # A result of code that is no more is worth nothing.
-        there = {mutant.identity for mutant in all_mutants()}
-        results = {identity: entry for identity, entry in results.items() if identity in there}
-        sample = mutants[:given.count]
-        if given.list:
-            print("\n".join(f"{m.identity} {m.kind:10} {m.path}:{m.line}: {m.after.strip()}" for m in sample))
-            return 0
+    sample = mutants[:given.count]
+    results = {} if given.again else valid(stored(RESULTS, {}), sample if given.check or not given.room else all_mutants())
+    if given.list:
+        for mutant in sample:
+            verdict = results.get(mutant.identity, {}).get("verdict", "no verdict")
+            print(f"{mutant.identity} {verdict:10} {mutant.kind:10} {mutant.path}:{mutant.line}: {mutant.after.strip()}")
+        return 0
+    if given.update:
+        start, before = time.monotonic(), used_seconds()
         run_mutants(sample, results, given.seconds, given.jobs)
         save(results)
         TABLE.write_text(table(results), encoding="utf-8")
-    elif not TABLE.exists() or TABLE.read_text(encoding="utf-8") != table(results):
-        print(f"mutate: {TABLE.name} is not what {RESULTS.name} and {REASONS.name} say; run coverage/mutate.py --count 0")
-        return 1
-    found = complaints(results)
+        print(f"mutate: {time.monotonic() - start:.0f} s, {used_seconds() - before:.0f} s of processor time")
+    elif not given.check:
+        parser.error("say --update, --check, --list or --show ID")
+    found = complaints(results, sample)
+    if given.check and (not TABLE.exists() or TABLE.read_text(encoding="utf-8") != table(results)):
+        found.append(f"{TABLE.name} is not what the verdicts and {REASONS.name} say; run coverage/mutate.py --update")
     count, killed, share = summary(results)
     print("".join(f"mutate: {complaint}\n" for complaint in found) + f"mutate: {killed} of {count} mutants killed, {share:.1f} %")
     return 1 if found else 0
