@@ -14,6 +14,7 @@
 
 #include <hompm/build_info.hpp>
 #include <hompm/error.hpp>
+#include <hompm/scene_file/content.hpp>
 #include <hompm/scene_file/reader.hpp>
 
 #include "text_table.hpp"
@@ -214,7 +215,8 @@ int run_tool(Tool tool, int argc, const char* const* argv,
     }
     return code;
   } catch (const UsageError& error) {
-    return fail(std::string(error.what()) + " (see " + tool.name + " --help)", usage);
+    const std::string message = error.what();  // words of the command line may hold anything
+    return fail(detail::printable(message, message.size()) + " (see " + tool.name + " --help)", usage);
   } catch (const SceneError& error) {
     return fail(error.what(), usage);
   } catch (const InvalidRun& error) {

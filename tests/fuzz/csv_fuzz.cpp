@@ -1,11 +1,8 @@
 // Any bytes are a table or are refused; a table without faults is identical to itself.
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
-#include <sys/mman.h>
-#include <unistd.h>
 #include <vector>
 
 #include <hompm/error.hpp>
@@ -15,6 +12,7 @@
 #include <hompm/verify/table_comparison.hpp>
 
 #include "demand.hpp"
+#include "memory_file.hpp"
 
 namespace {
 
@@ -28,22 +26,6 @@ const std::string golden = R"(time,particle,displacement,velocity,stress
 0.5,0,0.0014,-0.003,12.5
 0.5,1,0.004,1e-17,-3e100
 )";
-
-/// A file in memory.
-class MemoryFile {
- public:
-  MemoryFile(const void* data, std::size_t size) : descriptor_(::memfd_create("table", MFD_CLOEXEC)) {
-    demand(::write(descriptor_, data, size) == static_cast<ssize_t>(size), "the memory file is written");
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  [[nodiscard]] std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 void compare(const MemoryFile& a, const MemoryFile& b, bool with_particles) {
   MessageLog faults;

@@ -64,12 +64,13 @@ bool has_excess_precision() {
   return FLT_EVAL_METHOD != 0 || twice_rounded == 1.0;
 }
 
-/// Each sum is rounded to double when it is stored, so that excess precision does not look like this.
+/// Each sum is rounded to double before it is compared, so that excess precision does not look like this.
 bool rounds_otherwise() {
-  const volatile double up = unknown(1.0) + unknown(0x1.8p-53);
-  const volatile double down = unknown(1.0) + unknown(0x1.8p-54);
-  return up == 1.0 || down != 1.0 || -unknown(1.0) - unknown(0x1.8p-53) == -1.0 ||
-         -unknown(1.0) - unknown(0x1.8p-54) != -1.0;
+  const double one = unknown(1.0);
+  const double up = unknown(0x1.8p-53);
+  const double down = unknown(0x1.8p-54);
+  return unknown(one + up) == 1.0 || unknown(one + down) != 1.0 || unknown(-one - up) == -1.0 ||
+         unknown(-one - down) != -1.0;
 }
 
 /// a² rounded is b; the exact square has 2⁻⁵⁴ more. One use of the product: compilers contract within a

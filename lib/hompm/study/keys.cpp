@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <hompm/number.hpp>
+#include <hompm/scene_file/content.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/study/study.hpp>
 
@@ -33,7 +34,7 @@ std::string full_key(const std::string& said, const std::string& where) {
   std::vector<std::string> candidates{"scheme"};
   for (const SceneKey& known : scene_keys()) candidates.push_back(short_key(known.path));
   const std::string near = nearest(key, candidates);
-  throw SceneError(Origin{where}, "no scene has a key `" + said + "`" +
+  throw SceneError(Origin{where}, "no scene has a key `" + detail::printable(said) + "`" +
                                       (near.empty() ? "" : "; did you mean `" + near + "`?"));
 }
 
@@ -57,7 +58,7 @@ std::string canonical_value(const std::string& said, const std::string& where) {
            c == '_' || c == '.' || c == '+';
   };
   if (said.empty() || !std::all_of(said.begin(), said.end(), plain))
-    throw SceneError(Origin{where}, "`" + said + "` is neither a number nor a word");
+    throw SceneError(Origin{where}, "`" + detail::printable(said) + "` is neither a number nor a word");
   return said;
 }
 

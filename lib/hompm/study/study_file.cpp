@@ -35,13 +35,14 @@ class Reader {
         each(*node.as_table(), "", [&](const std::string& path, const toml::node& value) {
           if (const auto key_there = key_of(path, value))
             for (const std::string& one : values(value)) study.settings.push_back({*key_there, one});
-          if (value.is_array()) report(value, "`" + path + "` takes one value here; lists go into [[sweep]]");
+          if (value.is_array())
+            report(value, "`" + detail::printable(path) + "` takes one value here; lists go into [[sweep]]");
         });
       } else if (name == "sweep" && node.is_array_of_tables()) {
         for (const toml::node& table : *node.as_array()) study.sweeps.push_back(sweep(*table.as_table()));
       } else {
         const std::string near = nearest(name, {"case", "variant", "scene", "set", "sweep"});
-        report(node, "`" + name + "` has no place in a study" +
+        report(node, "`" + detail::printable(name) + "` has no place in a study" +
                          (near.empty() || near == name ? ": it holds case, variant, scene, [set], [[sweep]]"
                                                        : "; did you mean `" + near + "`?"));
       }

@@ -1,6 +1,7 @@
 // The values that an axis takes when none are said.
 #include <map>
 
+#include <hompm/scene_file/content.hpp>
 #include <hompm/study/study.hpp>
 
 namespace hompm::study {
@@ -42,7 +43,7 @@ std::vector<Sweep> usual_sweeps() {
 }
 
 std::vector<Axis> read_axes(const std::string& text) {
-  const std::string where = "--vary " + text;
+  const std::string where = "--vary " + detail::printable(text);
   const auto equals = text.find('=');
   std::vector<Axis> axes;
   if (equals != std::string::npos) axes.push_back({full_key(text.substr(0, equals), where), {}});

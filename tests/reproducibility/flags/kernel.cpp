@@ -58,8 +58,13 @@ Row sums(const Row& x, const Row& y) {
 /// Zeros with a sign, subnormal numbers, infinities, what is no number.
 Row special(const Row& x) {
   Row result;
-  for (const double value : {-0.0, 0x1p-1040, 0x1.8p-1022, std::numeric_limits<double>::infinity(),
-                             std::numeric_limits<double>::quiet_NaN(), x[0]}) {
+  const Row values{-0.0,
+                   0x1p-1040,
+                   0x1.8p-1022,
+                   std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::quiet_NaN(),
+                   x[0]};
+  for (const double value : values) {
     result.push_back(value + 0.0);
     result.push_back(0.0 - value);
     result.push_back(value * 0.5);
