@@ -236,7 +236,7 @@ TEST_CASE("the method of lines conserves energy for every law", "[reference]") {
 TEST_CASE("equilibrium of the law rate in closed form", "[reference]") {
   Scene scene = column("rate");
   scene.material.youngs_modulus = 1e4;
-  scene.rest = Rest{1e-6};
+  scene.rest = Rest{.speed = 1e-6, .earliest = {}};
   scene.effects.push_back(effect("local-damping", {{"coefficient", 0.7}}));
   const std::vector<double> X = points(1.0, 31);
   const Reference found = reference(scene);
@@ -259,7 +259,7 @@ TEST_CASE("equilibrium of every law, from either side", "[reference]") {
     INFO(name);
     Scene scene = column(name);
     scene.material.youngs_modulus = 3e4;
-    scene.rest = Rest{1e-6};
+    scene.rest = Rest{.speed = 1e-6, .earliest = {}};
     scene.effects.push_back(effect("traction", {{"end", "right"}, {"value", 2e3}}));
     const ReferenceFields fields = reference(scene).at(1.0, X);
     CHECK(fields.stress.back() == 2e3);
@@ -295,7 +295,7 @@ TEST_CASE("where no reference is known there is none", "[reference]") {
   Scene scene = column("rate");
   scene.effects.push_back(effect("local-damping", {{"coefficient", 0.7}}));
   CHECK_FALSE(make_reference(scene));
-  scene.rest = Rest{1e-6};
+  scene.rest = Rest{.speed = 1e-6, .earliest = {}};
   CHECK(make_reference(scene));
   scene.effects.push_back(effect("earthquake", {}));
   CHECK_FALSE(make_reference(scene));
@@ -304,7 +304,7 @@ TEST_CASE("where no reference is known there is none", "[reference]") {
   CHECK_FALSE(make_reference(scene));
   scene.material.law = "linear";
   CHECK(make_reference(scene));
-  scene.rest = Rest{1e-6};
+  scene.rest = Rest{.speed = 1e-6, .earliest = {}};
   CHECK_FALSE(make_reference(scene));  // nothing holds its place between two fixed ends but the history
 }
 
