@@ -58,8 +58,9 @@ hompm::cli::Tool this_tool() {
       .remarks =
           "A value passes when it meets any of its bounds. Without bounds a single bit\n"
           "makes the two different. A file of another code is a table, .vtu, .vtp, .pvd or\n"
-          "LAMMPS dump, maybe in .gz; it needs X, time and one of x, displacement, velocity,\n"
-          "volume, density, stress, stretch, in any order. Particles are matched by X.\n"
+          "LAMMPS dump, maybe in .gz; it needs X, time and one of x, displacement,\n"
+          "velocity, volume, density, stress, stretch, in any order. Particles are matched\n"
+          "by X.\n"
           "Largest values are then those of all times, and only fields with a bound are\n"
           "judged, if any has one; with `all` each field of B must be there.\n\n"
           "Exit codes: 0 identical or equivalent, 2 bad usage, 3 different, 5 cannot read\n"

@@ -75,9 +75,9 @@ hompm::cli::Tool this_tool() {
                       {{"output", "DIR", "output folder (default hompm-out/study-CASE-VARIANT)"},
                        {"quiet", "", "print nothing but errors"}}}},
           .remarks =
-              "Exit codes: 0 fine, 2 bad usage, scene or study, 4 no setting can be run or reaches\n"
-              "the error, 5 cannot read or write, 128 + n stopped by signal n: the same command\n"
-              "goes on.\n"};
+              "Exit codes: 0 fine, 2 bad usage, scene or study, 4 no setting can be run or\n"
+              "reaches the error, 5 cannot read or write, 128 + n stopped by signal n: the\n"
+              "same command goes on.\n"};
 }
 
 std::string text_option(const po::variables_map& given, const char* option) {

@@ -300,7 +300,7 @@ length = 1.0
 length = 1.0
 start = 1e10
 )"),
-                 "scene.toml:10:9: particles "));
+                 ":8:1: particles "));
 }
 
 TEST_CASE("fault 10: the law linear tells of strains that are not small", "[faults]") {

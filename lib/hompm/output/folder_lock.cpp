@@ -9,11 +9,11 @@
 
 namespace hompm::detail {
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".hompm-lock") {
+FolderLock::FolderLock(const std::filesystem::path& folder, bool waits) : file_(folder / ".hompm-lock") {
   for (;;) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor_ < 0) throw FileError("write in", folder, errno);
-    exclusive_ = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+    exclusive_ = ::flock(descriptor_, waits ? LOCK_EX : LOCK_EX | LOCK_NB) == 0;
     const bool taken = !exclusive_ && errno == EWOULDBLOCK;
     struct stat locked {};
     struct stat named {};

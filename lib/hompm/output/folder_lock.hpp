@@ -9,9 +9,9 @@ namespace hompm::detail {
 /// as long as the object lives and at most as the process does. It keeps nobody out who does not ask.
 class FolderLock {
  public:
-  /// Throws `FileError` where somebody else holds it, and where the file cannot be had. On a file system
-  /// without locks everybody holds it.
-  explicit FolderLock(const std::filesystem::path& folder);
+  /// Throws `FileError` where the file cannot be had, and where somebody else holds it, for whom it otherwise
+  /// `waits`. On a file system without locks everybody holds it.
+  explicit FolderLock(const std::filesystem::path& folder, bool waits = false);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -77,8 +77,8 @@ void CreatedFolders::remove_empty() {
   }
 }
 
-StagingFolder::StagingFolder(fs::path folder)
-    : folder_(std::move(folder)), created_(folder_), lock_(folder_) {
+StagingFolder::StagingFolder(fs::path folder, bool waits)
+    : folder_(std::move(folder)), created_(folder_), lock_(folder_, waits) {
   if (lock_.exclusive()) remove_left_over(folder_);
   staging_ = create_staging(folder_);
 }

@@ -30,8 +30,8 @@ class CreatedFolders {
 class StagingFolder {
  public:
   /// Removes what killed runs left over. Throws `FileError` when one of the two folders cannot be created,
-  /// and when another process has the folder.
-  explicit StagingFolder(std::filesystem::path folder);
+  /// and when another process has the folder, for which it otherwise `waits`.
+  explicit StagingFolder(std::filesystem::path folder, bool waits = false);
   ~StagingFolder();
   StagingFolder(const StagingFolder&) = delete;
   StagingFolder& operator=(const StagingFolder&) = delete;

@@ -141,7 +141,7 @@ std::vector<KeyRow> make_key_table() {
       {"rest.earliest",
        {.type = ValueType::number, .unit = "s", .minimum = 0.0},
        derived,
-       "0",
+       "the start",
        "",
        "before which the run does not end, whatever is at rest",
        [](Scene& scene) -> Slot { return &scene.rest->earliest; }},

@@ -155,7 +155,8 @@ std::filesystem::path times_path(const std::filesystem::path& folder, const std:
 
 void write_whole(const std::filesystem::path& path, const std::string& text) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  detail::StagingFolder staging(folder);
+  constexpr bool waits = true;  // for another worker's record
+  detail::StagingFolder staging(folder, waits);
   detail::TextFile file = staging.create(path.filename());
   file << text;
   file.close();
