@@ -71,6 +71,9 @@ struct PlanBuilder {
   /// Turns impulses b_i on the grid functions into changes of the grid velocity, M⁻¹ b with the mass by which
   /// the scheme divides forces; fixed ends stay at rest. Returns the sum of the impulses that hold them.
   std::function<double(const State&, std::vector<double>&)> divide_by_mass = {};
+  /// Moves the forces on functions that have no motion of their own to those that carry them along; empty
+  /// where all have one.
+  std::function<void(std::vector<double>&)> untie = {};
   /// The scheme's projection of particle velocities (or changes of them) to the grid. Returns what fixed ends
   /// add to the momentum, kg/(m s).
   std::function<double(const State&, const std::vector<double>&, std::vector<double>&)> project = {};

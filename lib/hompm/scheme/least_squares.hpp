@@ -23,9 +23,7 @@ template <int P>
 class LeastSquares {
  public:
   LeastSquares(const State& state, const SchemeChoices& choices)
-      : extended_(choices.free_end == FreeEnd::extension),
-        normal_(state, extended_),
-        weight_(state.particles.mass) {
+      : normal_(state, choices.free_end == FreeEnd::extension), weight_(state.particles.mass) {
     if (!choices.markers || choices.conserve == Conserve::momentum) return;
     constexpr double share = 0.1;
     weight_.front() = share * weight_[1];
@@ -58,10 +56,9 @@ class LeastSquares {
         for (std::size_t j = 0; j <= i; ++j) normal_.entry(f + i, f + j) = block[i][j];
     }
     // On a breakpoint the last particle is taken to be in the cell beyond, of whose last function it touches
-    // nothing. Such a function is not determined. One that is tied is; but the mass does not reach there, and
-    // a function that it lacks moves on for ever without a force, unless the body moves: then for a step.
-    const bool touches_nothing =
-        !(state.moves && extended_) && state.basis.values[count * stencil - 1] == 0.0;
+    // nothing. The mass does not reach there, nor would the first particle on a breakpoint: a body and its
+    // mirror image have the same functions.
+    const bool touches_nothing = state.basis.values[count * stencil - 1] == 0.0;
     normal_.factorise(state, static_cast<std::size_t>(first[0]),
                       static_cast<std::size_t>(first[count - 1]) + stencil - (touches_nothing ? 1 : 0));
   }
@@ -75,7 +72,6 @@ class LeastSquares {
   }
 
  private:
-  bool extended_;
   ConsistentMass<P> normal_;
   std::vector<double> weight_;
 };

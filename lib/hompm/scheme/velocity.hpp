@@ -50,6 +50,7 @@ void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstructio
     builder.divide_by_mass = [splines](const State&, std::vector<double>& field) {
       return splines->solve(field);
     };
+    builder.untie = [splines](std::vector<double>& force) { splines->untie(force); };
   }
   builder.add(Phase::acceleration, "particle velocity (FLIP)", [](State& state) {
     add_at_particles<P>(state, state.kick, state.fields.acceleration, state.particles.velocity);
