@@ -16,6 +16,7 @@ done
 [ -z "$(git status --porcelain)" ] || echo "bare_root: what is not committed is left out" >&2
 
 root=$(mktemp -d "${TMPDIR:-/tmp}/bare-$suite-XXXXXX")
+chmod 755 "$root"  # tests give up root's rights
 # Mounts are made in a namespace of their own, which goes with the last process in it.
 trap 'rm -rf --one-file-system "$root"' EXIT
 trap 'exit 1' INT TERM

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -20,7 +21,8 @@ std::string join(const std::vector<Problem>& problems) {
 }
 
 std::string invalid_text(std::int64_t step, double time, std::int64_t particle, const std::string& reason) {
-  std::string text = "invalid at step " + std::to_string(step) + ", t = " + to_text(time) + " s";
+  std::string text = "invalid at step " + std::to_string(step) +
+                     ", t = " + (std::isfinite(time) ? to_text(time) + " s" : std::string("not finite"));
   if (particle >= 0) text += ", particle " + std::to_string(particle);
   return text + ": " + reason;
 }

@@ -72,7 +72,10 @@ void Guards::compare(const State& state, double energy, const HistoryRow& row) {
   constexpr double most = 10.0;
   if (state.step < first_steps) return;
   const double there = start_ + supplied_;
-  const auto of_what = [&] { return " J/m^2, the start and the loads supplied " + to_text(there) + "; "; };
+  const auto of_what = [&] {
+    return " J/m^2, the start and the loads supplied " +
+           (std::isfinite(there) ? to_text(there) : std::string("a number that is not finite")) + "; ";
+  };
   const double bound = std::max(there, scale_);
   if (!std::isfinite(energy) || energy > most * bound)
     throw InvalidRun(
