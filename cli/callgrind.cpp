@@ -59,11 +59,11 @@ study::Instructions count_instructions(const study::Measured& measured, const st
   const Scratch scratch;
   study::write_moments(scratch.path(), measured);
   const std::string log = scratch.path() + "/log";
-  const int code =
-      run_child({"env", vectors_at_any_size, "valgrind", "--tool=callgrind",
-                 "--callgrind-out-file=" + scratch.path() + "/out", "--collect-atstart=no",
-                 "--toggle-collect=hompm::Simulation::step()", program_path(), "--count", scratch.path()},
-                log, log, check);
+  const int code = run_child(
+      {"env", vectors_at_any_size, "valgrind", "--tool=callgrind",
+       "--callgrind-out-file=" + scratch.path() + "/out", "--collect-atstart=no",
+       "--toggle-collect=hompm::Simulation::step(double)", program_path(), "--count", scratch.path()},
+      log, log, check);
   const std::string said = study::text_of(log).value_or("");
   const auto counted = number_after(said, "Collected : ");
   const auto steps = number_after(said, "counted steps: ");

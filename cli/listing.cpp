@@ -13,7 +13,6 @@
 #include <hompm/effects/registry.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
-#include <hompm/plan/state_fields.hpp>
 #include <hompm/recorder/checkpoint.hpp>
 #include <hompm/recorder/trace_format.hpp>
 #include <hompm/scene_file/reader.hpp>
@@ -102,26 +101,13 @@ Json catalogue_json() {
     all["cases"].push_back(
         {{"case", scene.case_name}, {"variant", scene.variant}, {"default", scene.is_default}});
   all["schemes"] = nlohmann::json(scheme_table());
-  for (const auto& [name, formula] : material_laws())
-    all["materials"].push_back({{"name", name}, {"formula", formula}});
+  for (const MaterialLaw& law : material_laws())
+    all["materials"].push_back({{"name", law.name}, {"formula", law.formula}});
   all["effects"] = all_effects();
   return all;
 }
 
 // --explain
-
-constexpr std::array<std::pair<Phase, const char*>, static_cast<std::size_t>(Phase::count_)> phases{
-    {{Phase::geometry, "geometry"},
-     {Phase::end_stress, "stress at the ends"},
-     {Phase::internal_force, "internal force"},
-     {Phase::external_force, "external force"},
-     {Phase::damping_force, "damping force"},
-     {Phase::acceleration, "acceleration"},
-     {Phase::velocity, "velocity"},
-     {Phase::transfer, "transfer"},
-     {Phase::constraint, "constraint"},
-     {Phase::work, "work"},
-     {Phase::motion, "motion"}}};
 
 Json effects_left_out(const Scene& scene) {
   Json names = Json::array();
@@ -132,41 +118,55 @@ Json effects_left_out(const Scene& scene) {
   return names;
 }
 
-Json stages_of(const Plan& plan) {
+Json names_of(const State& state, const Fields& fields) {
+  Json names = Json::array();
+  for (const Field field : fields) names.push_back(info_of(state, field).name);
+  return names;
+}
+
+Json stages_of(const Plan& plan, const State& state) {
   Json stages = Json::array();
-  for (const auto& [phase, title] : phases)
-    for (const Stage& stage : plan[phase])
-      stages.push_back(
-          {{"phase", title}, {"name", stage.name}, {"for", stage.called_by}, {"owns", stage.arrays}});
+  for (const auto& phase : plan.phases)
+    for (const Stage& stage : phase)
+      stages.push_back({{"phase", title_of(stage.phase)},
+                        {"name", stage.name},
+                        {"for", stage.called_by},
+                        {"reads", names_of(state, stage.reads)},
+                        {"changes", names_of(state, stage.changes)},
+                        {"writes", names_of(state, stage.writes)}});
   return stages;
 }
 
-/// The arrays that the stages of a body work on: those of its state that are there.
-Json arrays_of(const State& state) {
-  Json arrays{{"particle", Json::array()},
-              {"particle and function there", Json::array()},
-              {"grid function", Json::array()}};
-  visit_fields(state, [&](std::string_view name, Site site, const auto&) {
-    const bool own = name.starts_with("basis.");  // the others have their title in common
-    const char* const title = site == Site::particle            ? "particle"
-                              : site == Site::particle_function ? "particle and function there"
-                                                                : "grid function";
-    if (site == Site::particle || site == Site::particle_function || site == Site::function)
-      arrays[title].push_back(std::string(own ? name : name.substr(name.find('.') + 1)));
-  });
-  return arrays;
+/// What the scene has beyond the fields of every state.
+Json fields_of(const State& state) {
+  Json fields = Json::array();
+  for (const DeclaredField& field : state.declared)
+    fields.push_back({{"name", field.name},
+                      {"unit", field.unit},
+                      {"meaning", field.meaning},
+                      {"persists", field.persists},
+                      {"reported", field.reported}});
+  return fields;
 }
 
 Json couplings_of(const Simulation& simulation) {
   Json couplings = Json::array();
-  for (const auto& [phase, title] : phases)
-    for (const Coupling& coupling : simulation.couplings())
-      if (coupling.phase == phase)
-        couplings.push_back({{"phase", title},
-                             {"name", coupling.name},
-                             {"for", coupling.called_by},
-                             {"bodies", {coupling.left, coupling.left + 1}}});
+  for (const Coupling& coupling : simulation.couplings())
+    couplings.push_back({{"phase", title_of(coupling.phase)},
+                         {"name", coupling.name},
+                         {"for", coupling.called_by},
+                         {"bodies", {coupling.left, coupling.left + 1}},
+                         {"changes", names_of(simulation.state(coupling.left), coupling.changes[0])}});
   return couplings;
+}
+
+/// "reads a, b; changes c", as far as there is something.
+std::string uses_text(const Json& stage) {
+  std::string text;
+  for (const char* const verb : {"reads", "changes", "writes"})
+    if (stage.contains(verb) && !stage[verb].empty())
+      text += (text.empty() ? "" : "; ") + std::string(verb) + " " + joined(stage[verb]);
+  return wrapped("", 8, text);
 }
 
 /// "scheme tielen2017 (my.toml:3:1)" is said in short where it calls, and in full once.
@@ -194,18 +194,21 @@ std::string explanation_text(const Json& all) {
       }
       const std::string head = padded("  " + std::to_string(++number) + ".", 6) + text_of(stage, "name");
       text += padded(head, 52) + "for " + caller(stage, callers) + "\n";
-      if (!text_of(stage, "owns").empty()) text += wrapped("", 8, "owns, " + text_of(stage, "owns"));
+      text += uses_text(stage);
     }
-    text += "arrays of the state\n";
-    for (const auto& [site, names] : bodies[body]["arrays"].items())
-      text += wrapped("  per " + site + ":", 6, joined(names));
+    if (!bodies[body]["fields"].empty()) text += "fields of its own\n";
+    for (const Json& field : bodies[body]["fields"])
+      text += wrapped("  " + with_unit(text_of(field, "name"), text_of(field, "unit")), 36,
+                      text_of(field, "meaning") + (field["persists"].get<bool>() ? "" : "; scratch") +
+                          (field["reported"].get<bool>() ? "; reported" : ""));
   }
   if (!all["couplings"].empty()) text += "between bodies\n";
   for (const Json& coupling : all["couplings"])
     text += padded("  " + text_of(coupling, "name"), 52) + "for " + caller(coupling, callers) + "\n" +
             wrapped("", 8,
                     "of bodies " + coupling["bodies"][0].dump() + " and " + coupling["bodies"][1].dump() +
-                        ", at the end of the phase " + text_of(coupling, "phase"));
+                        ", at the end of the phase " + text_of(coupling, "phase")) +
+            uses_text(coupling);
   text += "called for by\n";
   for (const std::string& full : callers) text += wrapped("", 2, full);
   return text + wrapped("effects absent:", 2, joined(all["effects_absent"]));
@@ -266,7 +269,11 @@ std::string catalogue(Form form) {
     text += wrapped("  " + scheme.name, 20, scheme.summary + "; " + degrees(scheme)) +
             wrapped("", 20, scheme.source);
   text += "\nmaterials (material.law)\n";
-  for (const auto& [name, formula] : material_laws()) text += wrapped("  " + name, 16, formula);
+  for (const MaterialLaw& law : material_laws()) {
+    text += wrapped("  " + law.name, 18, law.formula);
+    for (const LawParameter& parameter : law.parameters)
+      text += wrapped("    " + with_unit(parameter.name, parameter.unit), 28, parameter.meaning);
+  }
   text += "\neffects ([[effect]] type)\n";
   for (const auto& effect : effect_catalogue()) {
     text += wrapped("  " + effect.name, 18, effect.meaning);
@@ -296,8 +303,8 @@ std::string explanation(const Scene& scene, const TimeStepping& stepping, Form f
   Json bodies = Json::array();
   for (std::size_t body = 0; body < simulation.bodies(); ++body)
     bodies.push_back({{"moves", simulation.state(body).basis_moves},
-                      {"stages", stages_of(simulation.plan(body))},
-                      {"arrays", arrays_of(simulation.state(body))}});
+                      {"stages", stages_of(simulation.plan(body), simulation.state(body))},
+                      {"fields", fields_of(simulation.state(body))}});
   const Json all{{"steps", stepping.steps},
                  {"time_step", stepping.time_step},
                  {"critical_time_step", stepping.critical_time_step},

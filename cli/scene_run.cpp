@@ -167,7 +167,7 @@ int run_scene(Scene scene, const po::variables_map& given, std::optional<Checkpo
 
   // 1. The steps.
   const HeldInterruption held;
-  RunFolder folder(output_folder(given, scene), begin.vtk, !scene.bodies.empty());
+  RunFolder folder(output_folder(given, scene), begin.vtk);
   const std::string where = folder.path().string();
   if (given.count("no-clobber")) demand_no_run(folder, resumed);
   const auto trace = asked_trace(given);

@@ -162,7 +162,7 @@ TEST_CASE("counted steps stand for the whole run to half a percent") {
                 .exit_code == 0);
     const auto whole = run_command(
         "valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no "
-        "'--toggle-collect=hompm::Simulation::step()' " +
+        "'--toggle-collect=hompm::Simulation::step(double)' " +
         run_tool + " --case " + scene + " --scheme " + scheme + " --cells " + cells + " --courant " +
         courant + " --no-vtk --quiet --output " + quoted(folder / "run"));
     REQUIRE(whole.exit_code == 0);

@@ -218,7 +218,9 @@ TEST_CASE("fault 4: what gives energy where it can only take it is told, and sto
     hompm::RunObserver observer;
     observer.start = [energy](hompm::Simulation& simulation) {
       simulation.plan().phases[static_cast<std::size_t>(hompm::Phase::work)].push_back(
-          {"gives", "", "test", [energy](hompm::State& state) { state.balance.dissipated -= energy; }});
+          {.name = "gives",
+           .phase = hompm::Phase::work,
+           .run = [energy](hompm::State& state) { state.balance.dissipated -= energy; }});
     };
     return observer;
   };

@@ -34,6 +34,24 @@ def main():
         if not (abs(velocity / exact - 1.0) < 2e-3 and residual < 1e-2 * 500.0 * exact**2):
             sys.exit("the effect outside the library does not do what it should")
 
+        # Its field is written, traced, and in the checkpoint, from which the run goes on to the same bytes.
+        for folder, rest in (("whole", []), ("resumed", [work / "whole/half"])):
+            (work / folder).mkdir()
+            run(work / "build/drag", HERE / "falling.toml", work / folder, *rest)
+        names = ("particles.csv", "stress.csv", "history.csv")
+        if any((work / "whole" / name).read_bytes() != (work / "resumed" / name).read_bytes() for name in names):
+            sys.exit("the effect outside the library does not resume to the bit")
+        header, *rows = (work / "whole/particles.csv").read_text(encoding="utf-8").splitlines()
+        heats = [float(row.split(",")[-1]) for row in rows]
+        if not header.endswith(",density,drag_heat") or not 0.0 == heats[0] < heats[-1]:
+            sys.exit(f"the field of the effect is not reported: {header}")
+        if 'Name="drag_heat"' not in (work / "whole/vtk/snapshot_0001.vtu").read_text(encoding="utf-8"):
+            sys.exit("the field of the effect is in no .vtu")
+        run(work / "prefix/bin/hompm-diff", work / "whole", work / "resumed")
+        traced = run(work / "prefix/bin/hompm-diff", "--trace", work / "whole/trace", work / "resumed/trace")
+        if b"particles.drag_heat" not in (work / "whole/trace").read_bytes():
+            sys.exit(f"the field of the effect is not traced: {traced}")
+
         misspelt = work / "misspelt.toml"
         misspelt.write_text((HERE / "falling.toml").read_text(encoding="utf-8").replace('"drag"', '"drg"'), encoding="utf-8")
         if 'did you mean "drag"?' not in run(work / "build/drag", misspelt, code=1):

@@ -23,7 +23,7 @@ class Cell:
 NO_FMA = ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX512F,-AVX2,-FMA,-FMA4")
 
 # No golden folder calls for these: their absence must not change a bit.
-UNUSED_EFFECTS = "traction;mass_damping;viscosity;bulk_viscosity;manufactured;plasticity;piston;wall;absorbing;contact;interface"
+UNUSED_EFFECTS = "traction;mass_damping;viscosity;bulk_viscosity;manufactured;piston;wall;absorbing;contact;interface"
 
 # What the small scenes give here, for the cells that run them: g++ -O2, which is held against the golden data, with the whole library.
 NATIVE = Cell("gcc-O2-whole", whole=True)

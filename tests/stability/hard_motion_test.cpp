@@ -74,7 +74,7 @@ TEST_CASE("a free end that passes a breakpoint makes no jump in the acceleration
       p.velocity[i] = 0.0;
     }
     state.kick = 1.0;
-    for (const Phase phase : {Phase::geometry, Phase::end_stress, Phase::internal_force,
+    for (const Phase phase : {Phase::geometry, Phase::total_stress, Phase::end_stress, Phase::internal_force,
                               Phase::external_force, Phase::damping_force, Phase::acceleration})
       simulation.plan().run(phase, state);
     return p.velocity;

@@ -54,7 +54,7 @@ TEST_CASE("constant stress in particles uneven by 10:1 makes no force inside, wi
     hompm::State& state = simulation.state();
     make_uneven(state.particles, ratio, 25.0 / 64.0);
     std::fill(state.particles.stress.begin(), state.particles.stress.end(), 1.0);
-    for (const Phase phase : {Phase::geometry, Phase::end_stress, Phase::internal_force})
+    for (const Phase phase : {Phase::geometry, Phase::total_stress, Phase::end_stress, Phase::internal_force})
       simulation.plan().run(phase, state);
     const auto& force = state.fields.internal_force;
     double inside = 0.0;

@@ -93,7 +93,8 @@ double computed_limit(const std::string& scheme, int degree, const std::string& 
                                             {"scheme.cells", cells},
                                             {"scheme.particles_per_cell", per_cell},
                                             {"ends.right", right}});
-  return hompm::CriticalStep(scene).at(hompm::initial_state(scene)) * 10.0 / (25.0 / std::stod(cells));
+  return hompm::CriticalStep(scene).at(hompm::Simulation(scene, 1.0).state()) * 10.0 /
+         (25.0 / std::stod(cells));
 }
 
 }  // namespace

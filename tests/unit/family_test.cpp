@@ -33,6 +33,7 @@ template <class Shift>
 void move_particles(Simulation& simulation, Shift shift) {
   State& state = simulation.state();
   hompm::Particles& p = state.particles;
+  auto* right_end = state.find("particles.right_end");
   double left = shift(0.0);
   state.left_boundary = left;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -40,7 +41,7 @@ void move_particles(Simulation& simulation, Shift shift) {
     const double right = end + shift(end);
     p.position[i] = 0.5 * (left + right);
     p.volume[i] = right - left;
-    if (!p.right_end.empty()) p.right_end[i] = right;
+    if (right_end != nullptr) (*right_end)[i] = right;
     left = right;
   }
   simulation.plan().run(Phase::geometry, state);
@@ -105,6 +106,7 @@ TEST_CASE("the force has no jump where a particle crosses a cell, but with plain
     const double to_node = 0.5 - p.reference_position[particle];
     const auto force = [&](double beside) {
       move_particles(simulation, [&](double) { return to_node + beside; });
+      simulation.plan().run(Phase::total_stress, state);
       simulation.plan().run(Phase::internal_force, state);
       return state.fields.internal_force;
     };
@@ -129,6 +131,7 @@ TEST_CASE("a constant stress over domains without gaps gives no force inside") {
     State& state = simulation.state();
     move_particles(simulation, uneven);
     std::fill(state.particles.stress.begin(), state.particles.stress.end(), 7.0);
+    simulation.plan().run(Phase::total_stress, state);
     simulation.plan().run(Phase::internal_force, state);
     const auto& f = state.fields.internal_force;
     double largest = 0.0;
@@ -153,6 +156,7 @@ TEST_CASE(
   CHECK(state.basis.values == before);
   CHECK(std::abs(state.particles.displacement[state.particles.size() / 2]) > scene.body.length / 64);
   std::fill(state.particles.stress.begin(), state.particles.stress.end(), 7.0);
+  simulation.plan().run(Phase::total_stress, state);
   simulation.plan().run(Phase::internal_force, state);
   const auto& f = state.fields.internal_force;
   // Particles of equal volumes at the middle of as many parts of a cell integrate linear gradients exactly.
@@ -194,7 +198,8 @@ std::vector<double> after_transfer(const std::string& scheme, const std::string&
   Simulation simulation(scene, 1e-3);
   auto& p = simulation.state().particles;
   p.velocity = velocity;
-  std::fill(p.velocity_gradient.begin(), p.velocity_gradient.end(), slope);
+  if (auto* gradient = simulation.state().find("particles.velocity_gradient"))
+    std::fill(gradient->begin(), gradient->end(), slope);
   simulation.step();
   return p.velocity;
 }
@@ -321,7 +326,8 @@ TEST_CASE("domains end with the grid at fixed ends, whatever its cells round to"
     Simulation simulation(scene, 1e-3);
     auto& p = simulation.state().particles;
     for (double& x : p.position) x += 1e-9;  // so that the last domain reaches beyond the end
-    for (double& end : p.right_end) end += 1e-9;
+    if (auto* ends = simulation.state().find("particles.right_end"))
+      for (double& end : *ends) end += 1e-9;
     simulation.plan().run(Phase::geometry, simulation.state());
     const auto& mass = simulation.state().fields.mass;
     CHECK(std::abs(std::accumulate(mass.begin(), mass.end(), 0.0) - simulation.state().total_mass) <=
@@ -340,11 +346,12 @@ TEST_CASE("a domain too wide for its functions, and particles outside the grid, 
     INFO(scheme);
     Simulation lost(free_body({{"scheme.name", scheme}}), 1e-3);
     lost.state().particles.position[7] = 100.0;
-    if (scheme == "cpdi") lost.state().particles.right_end[7] = std::numeric_limits<double>::quiet_NaN();
+    if (scheme == "cpdi")
+      (*lost.state().find("particles.right_end"))[7] = std::numeric_limits<double>::quiet_NaN();
     CHECK(contains(geometry(lost), "particle 7: left the grid"));
   }
   Simulation free(free_body({{"scheme.name", "cpdi"}}), 1e-3);
-  free.state().particles.right_end.back() = 100.0;
+  free.state().find("particles.right_end")->back() = 100.0;
   CHECK(contains(geometry(free), "the free end left the grid"));
 }
 

@@ -114,9 +114,9 @@ TEST_CASE("hencky has a greatest stress", "[material]") {
 }
 
 TEST_CASE("laws are made by their names", "[material]") {
-  REQUIRE(material_laws().size() == names.size());
+  REQUIRE(material_laws().size() == names.size() + 1);  // that with memory has more parameters
   for (std::size_t i = 0; i < names.size(); ++i) {
-    CHECK(material_laws()[i].first == names[i]);
+    CHECK(material_laws()[i].name == names[i]);
     CHECK(make_material({names[i], 1.0, youngs_modulus}).index() == i);
   }
   CHECK_THROWS_AS(make_material({"elastic", 1.0, youngs_modulus}), Error);

@@ -31,6 +31,7 @@ Simulation uneven_body(const std::string& scheme, const std::string& degree) {
 
 const std::vector<double>& internal_force(Simulation& simulation) {
   simulation.plan().run(Phase::geometry, simulation.state());
+  simulation.plan().run(Phase::total_stress, simulation.state());
   simulation.plan().run(Phase::internal_force, simulation.state());
   return simulation.state().fields.internal_force;
 }

@@ -214,8 +214,10 @@ TEST_CASE("the method of lines conserves energy for every law", "[reference]") {
   for (int panel = 0; panel < panels; ++panel) {
     for (const double point : rule.points) X.push_back(25.0 / panels * (panel + point));
   }
-  for (const auto& [name, formula] : material_laws()) {
+  for (const auto& law_row : material_laws()) {
+    const std::string& name = law_row.name;
     INFO(name);
+    if (!law_row.parameters.empty()) continue;  // a law with memory has no reference
     const Scene scene = bar(name, 1.0);
     const ReferenceFields fields = lines(scene, {16, 12, 0.25})(3.0, X);
     const double energy = std::visit(
@@ -255,8 +257,10 @@ TEST_CASE("equilibrium of the law rate in closed form", "[reference]") {
 
 TEST_CASE("equilibrium of every law, from either side", "[reference]") {
   const std::vector<double> X{0.1, 0.399999, 0.400001, 0.8, 1.0};
-  for (const auto& [name, formula] : material_laws()) {
+  for (const auto& law_row : material_laws()) {
+    const std::string& name = law_row.name;
     INFO(name);
+    if (!law_row.parameters.empty()) continue;  // a law with memory has no reference
     Scene scene = column(name);
     scene.material.youngs_modulus = 3e4;
     scene.rest = Rest{.speed = 1e-6, .earliest = {}};

@@ -99,6 +99,7 @@ TEST_CASE("a constant stress gives no force inside with reconstruction, and some
     move_to(simulation, uneven(p.size()));
     std::fill(p.stress.begin(), p.stress.end(), 7.0);
     simulation.plan().run(Phase::geometry, simulation.state());
+    simulation.plan().run(Phase::total_stress, simulation.state());
     simulation.plan().run(Phase::internal_force, simulation.state());
     const auto& f = simulation.state().fields.internal_force;
     double largest = 0.0;

@@ -11,28 +11,34 @@ namespace {
 /// takes energy (Lysmer, Kuhlemeyer 1969). Z is the Lagrangian impedance √(ρ0 dσ/dλ), between that of the
 /// undeformed material and that at the end the geometric mean: for the law `rate`, ρ0 c/√λ, which an outgoing
 /// simple wave has up to third order in its amplitude.
-void join(const EffectSpec& spec, PlanBuilder& builder) {
-  const Side side = side_of(spec);
-  if (builder.wants_end_stress) join_own_stress(side, builder);
-  const double density = builder.scene.material.density;
-  std::visit(
-      [&](const auto& law) {
-        builder.add(
-            Phase::constraint, "absorbing end",
-            [law, side, density, end = BodyEnd(builder, side)](State& state) mutable {
-              end.find(state);
-              const auto& stretch = state.particles.stretch;
-              const double tangent = law.tangent(side == Side::right ? stretch.back() : stretch.front());
-              const double impedance = std::sqrt(density * std::sqrt(law.tangent(1.0) * tangent));
-              const double half = 0.5 * state.kick * impedance;
-              const double impulse =
-                  -half * (end.velocity_before() + end.velocity()) / (1.0 + half * end.compliance());
-              end.push(state, impulse);
-              state.balance.dissipated -= end.work(impulse);
-            },
-            BodyEnd::arrays);
-      },
-      make_material(builder.scene.material));
+template <class Law>
+void join_law(const Law& law, Side side, const PlanBuilder& builder) {
+  join_own_stress(side, builder);
+  const BodyEnd end(builder, side);
+  Stage stage =
+      end.stage("absorbing end", [law, side, end, density = builder.scene.material.density](State& state) {
+        const auto response = end.find(state);
+        const auto& stretch = state.particles.stretch;
+        const double tangent = law.tangent(side == Side::right ? stretch.back() : stretch.front());
+        const double impedance = std::sqrt(density * std::sqrt(law.tangent(1.0) * tangent));
+        const double half = 0.5 * state.kick * impedance;
+        const double impulse =
+            -half * (response.velocity_before + response.velocity) / (1.0 + half * response.compliance);
+        state.balance.dissipated -= end.push(state, response, impulse);
+      });
+  stage.reads.push_back("particles.stretch"_field);
+  builder.add(std::move(stage));
+}
+
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
+  std::visit([&](const auto& law) { join_law(law, side_of(spec), builder); },
+             make_material(builder.scene.material));
+}
+
+/// It moves, against a force.
+void join_linear(Side side, LinearEnd how, const PlanBuilder& builder) {
+  if (how == LinearEnd::let_go) return join_own_stress(side, builder);
+  join_law(Linear{builder.scene.material.youngs_modulus}, side, builder);
 }
 
 }  // namespace
@@ -44,7 +50,7 @@ EffectType absorbing() {
           .join = join,
           .conflict = conflict_of_held_end,
           .holds_end = true,
-          .own_stress = true};
+          .join_linear = join_linear};
 }
 
 }  // namespace hompm::detail

@@ -28,40 +28,31 @@ std::string conflict_of_held_end(const EffectSpec&, const Scene& scene) {
          "\"blanes-moan\"";
 }
 
-void join_own_stress(Side side, PlanBuilder& builder) {
-  builder.add(Phase::end_stress, "held end: its marker carries its own stress", [side](State& state) {
-    if (side == Side::right)
-      state.right_stress = state.particles.stress.back();
-    else
-      state.left_stress = state.particles.stress.front();
-  });
+void join_own_stress(Side side, const StageBuilder& builder) {
+  if (!builder.has_markers()) return;
+  const bool right = side == Side::right;
+  builder.add({.name = "held end: its marker carries its own stress",
+               .phase = Phase::end_stress,
+               .reads = {builder.plan.total_stress},
+               .changes = {right ? "right_stress"_field : "left_stress"_field},
+               .run = [right, total = builder.plan.total_stress](State& state) {
+                 const auto& stress = state[total];
+                 (right ? state.right_stress : state.left_stress) = right ? stress.back() : stress.front();
+               }});
 }
 
-namespace {
-EffectCatalogue own_stress_alone() {
-  return {{.name = "own stress",
-           .meaning = "an end that carries the stress of its own stretch, held by nothing",
-           .parameters = {},
-           .join = [](const EffectSpec& spec, PlanBuilder& builder) {
-             if (builder.wants_end_stress) join_own_stress(side_of(spec), builder);
-           }}};
+void join_standing_end(Side side, LinearEnd how, const PlanBuilder& builder) {
+  if (how == LinearEnd::let_go) return;
+  join_own_stress(side, builder);
+  const BodyEnd end(builder, side);
+  builder.add(end.stage("end at rest", [end](State& state) {
+    const auto response = end.find(state);
+    end.push(state, response, -response.velocity / response.compliance);
+  }));
 }
-}  // namespace
 
-void leave_own_stress(Scene& scene) {
-  static const EffectCatalogue catalogue = own_stress_alone();
-  std::vector<EffectSpec> effects;
-  for (const auto& [end, which] : {std::pair{scene.ends.left, "left"}, {scene.ends.right, "right"}}) {
-    const bool own = std::ranges::any_of(scene.effects, [&, name = which](const EffectSpec& spec) {
-      const EffectType& type = find_effect(scene, spec);
-      return type.own_stress && (type.couples() || spec.text("end") == name);
-    });
-    if (own && end == End::free)
-      effects.push_back(
-          {.type = catalogue.front().name, .parameters = {{"end", std::string(which)}}, .origin = {}});
-  }
-  scene.effects = std::move(effects);
-  scene.effect_types = &catalogue;
+void join_coupled_end(Side side, LinearEnd /*how*/, const PlanBuilder& builder) {
+  join_own_stress(side, builder);
 }
 
 namespace {
@@ -70,10 +61,10 @@ namespace {
 bool is_shut(const State& state, double gap) { return gap <= 1e-3 * state.grid.cell_width(); }
 }  // namespace
 
-void carry_contact_stress(State& state, Side side, double gap) {
+void carry_contact_stress(State& state, Field total_stress, Side side, double gap) {
   if (!is_shut(state, gap)) return;
   const bool right = side == Side::right;
-  const double own = right ? state.particles.stress.back() : state.particles.stress.front();
+  const double own = right ? state[total_stress].back() : state[total_stress].front();
   (right ? state.right_stress : state.left_stress) += std::min(own, 0.0);
 }
 
@@ -88,13 +79,13 @@ double arrival_of(const State& state, double gap, double closing_velocity) {
 }
 
 BodyEnd::BodyEnd(const PlanBuilder& builder, Side side)
-    : divide_by_mass_(builder.divide_by_mass),
-      project_(builder.project),
-      grid_response_(builder.state.fields.mass.size()),
-      particle_response_(builder.state.particles.size()) {
-  if (builder.scene.scheme.choices.velocity_projection == VelocityProjection::consistent) {
-    grid_change_.resize(grid_response_.size());
-    particle_change_.resize(particle_response_.size());
+    : discretisation_(builder.discretisation),
+      grid_response_(
+          builder.field({"end_response", "m/kg", "grid velocity of a unit impulse", Site::function})),
+      particle_response_(builder.field({"end_response", "m/kg", "particle velocity of a unit impulse"})) {
+  if (builder.scheme.choices.velocity_projection == VelocityProjection::consistent) {
+    grid_change_ = builder.field({"end_change", "m/s²", "grid velocity by the forces", Site::function});
+    particle_change_ = builder.field({"end_change", "m/s²", "particle velocity by the forces"});
   }
   const Particles& p = builder.state.particles;
   const std::size_t outer = side == Side::right ? p.size() - 1 : 0;
@@ -121,7 +112,7 @@ void BodyEnd::for_functions(const State& state, Visit visit) const {
       visit(static_cast<std::size_t>(state.basis.first[p]) + k, weight * state.basis.values[p * stencil + k]);
 }
 
-void BodyEnd::send_through_particles(const State& state, std::vector<double>& grid,
+void BodyEnd::send_through_particles(State& state, std::vector<double>& grid,
                                      std::vector<double>& particles) const {
   const std::size_t stencil = state.basis.stencil;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -131,55 +122,89 @@ void BodyEnd::send_through_particles(const State& state, std::vector<double>& gr
     for (std::size_t k = 0; k < stencil; ++k) sum += n[k] * change[k];
     particles[p] = sum;
   }
-  project_(state, particles, grid);
+  discretisation_->project(state, particles, grid);
 }
 
-double BodyEnd::velocity_now(const State& state) const {
+double BodyEnd::velocity(const State& state) const {
   double velocity = 0.0;
   for_functions(state, [&](std::size_t i, double value) { velocity += value * state.fields.velocity[i]; });
   return velocity;
 }
 
-void BodyEnd::find(const State& state) {
-  std::fill(grid_response_.begin(), grid_response_.end(), 0.0);
-  for_functions(state, [&](std::size_t i, double value) { grid_response_[i] += value; });
-  reaction_ = divide_by_mass_(state, grid_response_);
-  send_through_particles(state, grid_response_, particle_response_);
+BodyEnd::Response BodyEnd::find(State& state) const {
+  Response found;
+  auto& response = state[grid_response_];
+  std::fill(response.begin(), response.end(), 0.0);
+  for_functions(state, [&](std::size_t i, double value) { response[i] += value; });
+  found.reaction = discretisation_->divide_by_mass(state, response);
+  send_through_particles(state, response, state[particle_response_]);
 
   const GridFields& g = state.fields;
-  compliance_ = 0.0;
-  for_functions(state, [&](std::size_t i, double value) { compliance_ += value * grid_response_[i]; });
-  velocity_ = velocity_now(state);
+  for_functions(state, [&](std::size_t i, double value) { found.compliance += value * response[i]; });
+  found.velocity = velocity(state);
   double acceleration = 0.0;
-  if (grid_change_.empty()) {  // by the symmetry of the response
-    for (std::size_t i = 0; i < grid_response_.size(); ++i) acceleration += grid_response_[i] * g.force[i];
+  if (!grid_change_) {  // by the symmetry of the response
+    for (std::size_t i = 0; i < response.size(); ++i) acceleration += response[i] * g.force[i];
   } else {
-    grid_change_ = g.acceleration;
-    send_through_particles(state, grid_change_, particle_change_);
-    for_functions(state, [&](std::size_t i, double value) { acceleration += value * grid_change_[i]; });
+    auto& change = state[grid_change_];
+    change = g.acceleration;
+    send_through_particles(state, change, state[particle_change_]);
+    for_functions(state, [&](std::size_t i, double value) { acceleration += value * change[i]; });
   }
-  velocity_before_ = velocity_ - state.kick * acceleration;
+  found.velocity_before = found.velocity - state.kick * acceleration;
+  return found;
 }
 
-void BodyEnd::push(State& state, double impulse) const {
+double BodyEnd::push(State& state, const Response& response, double impulse) const {
   GridFields& g = state.fields;
   auto& velocity = state.particles.velocity;
-  for (std::size_t i = 0; i < grid_response_.size(); ++i) g.velocity[i] += impulse * grid_response_[i];
-  for (std::size_t p = 0; p < velocity.size(); ++p) velocity[p] += impulse * particle_response_[p];
-  for_functions(state, [&](std::size_t i, double value) { g.momentum[i] += impulse * value; });
-  state.balance.impulse += impulse * (1.0 + reaction_);
+  const auto& grid = state[grid_response_];
+  const auto& particles = state[particle_response_];
+  for (std::size_t i = 0; i < grid.size(); ++i) g.velocity[i] += impulse * grid[i];
+  for (std::size_t p = 0; p < velocity.size(); ++p) velocity[p] += impulse * particles[p];
+  if (discretisation_->keeps_momentum())
+    for_functions(state, [&](std::size_t i, double value) { g.momentum[i] += impulse * value; });
+  state.balance.impulse += impulse * (1.0 + response.reaction);
+  return response.work(impulse);
 }
 
-void EndPair::find(const State& left, const State& right) {
-  a_.find(left);
-  b_.find(right);
+Fields BodyEnd::reads() const {
+  Fields fields = discretisation_->reads();
+  fields.insert(fields.end(),
+                {"particles.displacement"_field, "grid.force"_field, "grid.acceleration"_field});
+  return fields;
+}
+
+Fields BodyEnd::changes() const {
+  Fields fields{"particles.velocity"_field, "grid.velocity"_field, "balance.impulse"_field,
+                "balance.dissipated"_field, "balance.external_work"_field};
+  if (discretisation_->keeps_momentum()) fields.push_back("grid.momentum"_field);
+  return fields;
+}
+
+Fields BodyEnd::writes() const {
+  Fields fields{grid_response_, particle_response_};
+  if (grid_change_) fields.insert(fields.end(), {grid_change_, particle_change_});
+  return fields;
+}
+
+Stage BodyEnd::stage(std::string name, std::function<void(State&)> run) const {
+  return {std::move(name), Phase::constraint, reads(), changes(), writes(), std::move(run)};
 }
 
 double EndPair::slow_down(State& left, State& right, double change) const {
-  const double impulse = change / (a_.compliance() + b_.compliance());
-  a_.push(left, -impulse);
-  b_.push(right, impulse);
-  return a_.work(-impulse) + b_.work(impulse);
+  const auto a = a_.find(left), b = b_.find(right);
+  const double impulse = change / (a.compliance + b.compliance);
+  return a_.push(left, a, -impulse) + b_.push(right, b, impulse);
+}
+
+Coupling EndPair::coupling(std::string name, std::function<void(State&, State&)> run) const {
+  return {.name = std::move(name),
+          .phase = Phase::constraint,
+          .reads = {a_.reads(), b_.reads()},
+          .changes = {a_.changes(), b_.changes()},
+          .writes = {a_.writes(), b_.writes()},
+          .run = std::move(run)};
 }
 
 }  // namespace hompm::detail

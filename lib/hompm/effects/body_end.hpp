@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,8 +12,6 @@
 #include <hompm/plan/plan.hpp>
 
 namespace hompm::detail {
-
-enum class Side { left, right };
 
 /// +1 at a right end, where +X points outward, −1 at a left one.
 inline double outward(Side side) { return side == Side::right ? 1.0 : -1.0; }
@@ -25,13 +25,14 @@ EffectParameter which_end(const std::string& standard);
 std::string conflict_of_held_end(const EffectSpec& spec, const Scene& scene);
 
 /// A marker on this end carries the stress of its own stretch, not one that is applied: what holds the end
-/// answers to it.
-void join_own_stress(Side side, PlanBuilder& builder);
-/// Leaves nothing of a scene's effects but that ends carry their own stress, where `EffectType::own_stress`
-/// says so.
-void leave_own_stress(Scene& scene);
+/// answers to it. Without markers nothing.
+void join_own_stress(Side side, const StageBuilder& builder);
+/// For `EffectType::join_linear`: of what makes an end stand, or move as it says; and of what leaves it to
+/// its fellow.
+void join_standing_end(Side side, LinearEnd how, const PlanBuilder& builder);
+void join_coupled_end(Side side, LinearEnd how, const PlanBuilder& builder);
 /// The same as `join_own_stress`, in Phase::end_stress, while a gap (m) is shut and the stress pushes.
-void carry_contact_stress(State& state, Side side, double gap);
+void carry_contact_stress(State& state, Field total_stress, Side side, double gap);
 
 /// The velocity (m/s) at which a gap may close: so that it is shut at the end of the drift, and no more.
 /// Where no drift follows (outputs), 0 for a gap that is shut, no bound for another.
@@ -58,27 +59,34 @@ class BodyEnd {
 
   /// Where it is (m), with infinitesimal kinematics too, where displacements are all that moves.
   [[nodiscard]] double position(const State& state) const;
+  /// At which it moves after the kick (m/s).
+  [[nodiscard]] double velocity(const State& state) const;
 
-  static constexpr const char* arrays = "per particle and per function: response to an impulse on the end";
+  /// What an impulse on the end does.
+  struct Response {
+    double compliance = 0.0;       ///< w, m²/kg
+    double velocity = 0.0;         ///< of the end (m/s), after the kick but without an impulse on it
+    double velocity_before = 0.0;  ///< and before the kick
+    double reaction = 0.0;         ///< at fixed ends, of a unit impulse
 
-  /// At which it moves after the kick (m/s), as `find` has it: where that is all that is asked.
-  [[nodiscard]] double velocity_now(const State& state) const;
+    /// What an impulse does to the kinetic energy (J/m²): J times the mean of the velocities before and after
+    /// kick and impulse.
+    [[nodiscard]] double work(double impulse) const {
+      return impulse * 0.5 * (velocity_before + velocity + compliance * impulse);
+    }
+  };
+  /// In Phase::constraint.
+  [[nodiscard]] Response find(State& state) const;
+  /// Applies an impulse (kg/(m s), in +X) to the velocities of particles and grid, and books it. Returns its
+  /// work.
+  double push(State& state, const Response& response, double impulse) const;
 
-  /// Finds w and the velocities of the end; in Phase::constraint, before the others.
-  void find(const State& state);
-
-  [[nodiscard]] double compliance() const { return compliance_; }  ///< w, m²/kg
-  /// Of the end (m/s): after the kick but without an impulse on it, and before the kick.
-  [[nodiscard]] double velocity() const { return velocity_; }
-  [[nodiscard]] double velocity_before() const { return velocity_before_; }
-
-  /// Applies an impulse (kg/(m s), in +X) to the velocities of particles and grid, and books it.
-  void push(State& state, double impulse) const;
-  /// What an impulse after `find` does to the kinetic energy (J/m²): J times the mean of the velocities
-  /// before and after kick and impulse.
-  [[nodiscard]] double work(double impulse) const {
-    return impulse * 0.5 * (velocity_before_ + velocity_ + compliance_ * impulse);
-  }
+  /// What a stage or coupling that finds and pushes does with the fields.
+  [[nodiscard]] Fields reads() const;
+  [[nodiscard]] Fields changes() const;
+  [[nodiscard]] Fields writes() const;
+  /// Such a stage.
+  [[nodiscard]] Stage stage(std::string name, std::function<void(State&)> run) const;
 
  private:
   struct Part {
@@ -90,20 +98,13 @@ class BodyEnd {
   void for_functions(const State& state, Visit visit) const;
 
   /// The way of all changes of velocity: `grid` to the particles, whose projection replaces it.
-  void send_through_particles(const State& state, std::vector<double>& grid,
-                              std::vector<double>& particles) const;
+  void send_through_particles(State& state, std::vector<double>& grid, std::vector<double>& particles) const;
 
-  decltype(PlanBuilder::divide_by_mass) divide_by_mass_;
-  decltype(PlanBuilder::project) project_;
-  std::array<Part, 2> parts_{};            ///< ℓ
-  std::vector<double> grid_response_;      ///< of the grid velocity to a unit impulse
-  std::vector<double> particle_response_;  ///< of the particle velocities
+  std::shared_ptr<const Discretisation> discretisation_;
+  std::array<Part, 2> parts_{};              ///< ℓ
+  Field grid_response_, particle_response_;  ///< of velocities, to a unit impulse
   /// By the forces; where the projection reconstructs fields, and the response to impulses is not symmetric.
-  std::vector<double> grid_change_, particle_change_;
-  double reaction_ = 0.0;  ///< at fixed ends, of a unit impulse
-  double compliance_ = 0.0;
-  double velocity_ = 0.0;
-  double velocity_before_ = 0.0;
+  Field grid_change_, particle_change_;
 };
 
 /// Two ends that face each other: the right one of a body, the left one of the next.
@@ -115,16 +116,14 @@ class EndPair {
   [[nodiscard]] double gap(const State& left, const State& right) const {
     return b_.position(right) - a_.position(left);
   }
-
   /// At which the gap closes, m/s.
   [[nodiscard]] double closing_velocity(const State& left, const State& right) const {
-    return a_.velocity_now(left) - b_.velocity_now(right);
+    return a_.velocity(left) - b_.velocity(right);
   }
-  /// As of `BodyEnd`, for both; before `slow_down`.
-  void find(const State& left, const State& right);
-
   /// Takes `change` (m/s) off the closing velocity by an impulse on both, and returns its work (J/m²).
   double slow_down(State& left, State& right, double change) const;
+  /// A coupling that does.
+  [[nodiscard]] Coupling coupling(std::string name, std::function<void(State&, State&)> run) const;
 
  private:
   BodyEnd a_, b_;

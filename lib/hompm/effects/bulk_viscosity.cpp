@@ -14,7 +14,7 @@ double cell_width(const Scene& scene) { return scene.body.length / scene.scheme.
 
 /// −ρ h |∂v/∂x| (a₂ h |∂v/∂x| + a₁ c) where the material is compressed, nothing elsewhere: a shock becomes
 /// some cells wide, whatever its strength (von Neumann, Richtmyer 1950; the linear part: Landshoff 1955).
-void join(const EffectSpec& spec, PlanBuilder& builder) {
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
   const double h = cell_width(builder.scene);
   const double quadratic = spec.number("quadratic") * h * h;
   const double linear = spec.number("linear") * h * wave_speed(builder.scene);
@@ -54,7 +54,8 @@ EffectType bulk_viscosity() {
                           .default_value = 0.5}},
           .join = join,
           .conflict = needs_forward_kicks,
-          .small_motion = small_motion};
+          .small_motion = small_motion,
+          .adds_stress = true};
 }
 
 }  // namespace hompm::detail

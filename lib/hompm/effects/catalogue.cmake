@@ -7,7 +7,6 @@ set(effects
   viscosity
   bulk_viscosity
   manufactured
-  plasticity
   piston
   wall
   absorbing

@@ -1,7 +1,6 @@
 // What all dampings on the grid have in common: a force per function, and the energy it takes.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,30 +10,38 @@
 namespace hompm::detail {
 
 /// Adds `force_of(momentum, force, velocity)` (Pa) to the force on every grid function, where `force` is out
-/// of balance so far and `velocity` is that of the last projection; books its impulse, and the energy −f·v Δt
-/// it takes once the velocity of the step is known.
+/// of balance so far and `velocity` is that of the last projection; `reads` are those that it takes. Books
+/// its impulse, and the energy −f·v Δt it takes once the velocity of the step is known.
 template <class Force>
-void join_grid_damping(PlanBuilder& builder, const std::string& name, Force force_of) {
-  const auto damping = std::make_shared<std::vector<double>>(builder.state.fields.force.size());
-  builder.add(
-      Phase::damping_force, name,
-      [damping, force_of](State& state) {
-        GridFields& g = state.fields;
-        double sum = 0.0;
-        for (std::size_t i = 0; i < damping->size(); ++i) {
-          const double f = force_of(g.momentum[i], g.force[i], g.velocity[i]);
-          (*damping)[i] = f;
-          g.force[i] += f;
-          sum += f;
-        }
-        state.balance.impulse += state.kick * sum;
-      },
-      "per function: damping force");
-  builder.add(Phase::work, name + ": dissipated energy", [damping](State& state) {
-    double power = 0.0;
-    for (std::size_t i = 0; i < damping->size(); ++i) power += (*damping)[i] * state.fields.velocity[i];
-    state.balance.dissipated -= state.drift * power;
-  });
+void join_grid_damping(const PlanBuilder& builder, const std::string& name, Fields reads, Force force_of) {
+  const Field damping = builder.field({"damping_force", "Pa", "of " + name, Site::function});
+  builder.add({.name = name,
+               .phase = Phase::damping_force,
+               .reads = std::move(reads),
+               .changes = {"grid.force"_field, "balance.impulse"_field},
+               .writes = {damping},
+               .run = [damping, force_of](State& state) {
+                 GridFields& g = state.fields;
+                 auto& own = state[damping];
+                 double sum = 0.0;
+                 for (std::size_t i = 0; i < own.size(); ++i) {
+                   const double f = force_of(g.momentum[i], g.force[i], g.velocity[i]);
+                   own[i] = f;
+                   g.force[i] += f;
+                   sum += f;
+                 }
+                 state.balance.impulse += state.kick * sum;
+               }});
+  builder.add({.name = name + ": dissipated energy",
+               .phase = Phase::work,
+               .reads = {damping, "grid.velocity"_field},
+               .changes = {"balance.dissipated"_field},
+               .run = [damping](State& state) {
+                 const auto& own = state[damping];
+                 double power = 0.0;
+                 for (std::size_t i = 0; i < own.size(); ++i) power += own[i] * state.fields.velocity[i];
+                 state.balance.dissipated -= state.drift * power;
+               }});
 }
 
 }  // namespace hompm::detail

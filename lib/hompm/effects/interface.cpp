@@ -1,5 +1,4 @@
 #include <cmath>
-#include <memory>
 
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
@@ -12,21 +11,18 @@ namespace {
 /// Two ends that stay together: v_A − v_B = g/δ, so that the gap g, of rounding, is closed anew in every
 /// drift.
 void join(const EffectSpec& spec, const PairBuilder& pair) {
-  const auto ends = std::make_shared<EndPair>(pair);
-  if (const double start = ends->gap(pair.left.state, pair.right.state);
+  const EndPair ends(pair);
+  if (const double start = ends.gap(pair.left.state, pair.right.state);
       std::abs(start) > 1e-9 * pair.left.scene.body.length)
     throw SceneError(spec.origin,
                      "the bodies " + std::to_string(pair.index) + " and " + std::to_string(pair.index + 1) +
                          " must touch where they are bonded; between them are " + to_text(start) + " m");
-  if (pair.left.wants_end_stress) {
-    join_own_stress(Side::right, pair.left);
-    join_own_stress(Side::left, pair.right);
-  }
-  pair.add(Phase::constraint, "interface", [ends](State& left, State& right) {
-    ends->find(left, right);
-    const double apart = left.drift > 0.0 ? ends->gap(left, right) / left.drift : 0.0;
-    left.balance.external_work += ends->slow_down(left, right, ends->closing_velocity(left, right) - apart);
-  });
+  join_own_stress(Side::right, pair.left);
+  join_own_stress(Side::left, pair.right);
+  pair.add(ends.coupling("interface", [ends](State& left, State& right) {
+    const double apart = left.drift > 0.0 ? ends.gap(left, right) / left.drift : 0.0;
+    left.balance.external_work += ends.slow_down(left, right, ends.closing_velocity(left, right) - apart);
+  }));
 }
 
 }  // namespace
@@ -38,7 +34,7 @@ EffectType interface() {
           .join = nullptr,
           .conflict = conflict_of_held_end,
           .holds_end = true,
-          .own_stress = true,
+          .join_linear = join_coupled_end,
           .join_pair = join};
 }
 

@@ -7,8 +7,8 @@ namespace hompm::detail {
 namespace {
 
 /// f_i = −α |f_i| sign(v_i), f_i out of balance (Tielen et al. 2017; Cundall 1987).
-void join(const EffectSpec& spec, PlanBuilder& builder) {
-  join_grid_damping(builder, "local damping",
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
+  join_grid_damping(builder, "local damping", {"grid.velocity"_field},
                     [alpha = spec.number("coefficient")](double, double force, double velocity) {
                       if (velocity == 0.0) return 0.0;
                       return velocity > 0.0 ? -alpha * std::abs(force) : alpha * std::abs(force);

@@ -45,27 +45,32 @@ class BodyForce {
   std::vector<double> sine_, cosine_;  ///< of πX/L
 };
 
-void join(const EffectSpec& spec, PlanBuilder& builder) {
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
   const auto force = std::make_shared<const BodyForce>(spec, builder.scene, builder.state);
   std::visit(
       [&](const auto& law) {
-        builder.add(
-            Phase::acceleration, "manufactured body force",
-            [force, law](State& state) {
-              Particles& p = state.particles;
-              force->for_particles(law, state.position_time, [&](std::size_t i, double b) {
-                p.velocity[i] += state.kick * b;
-                state.balance.impulse += state.kick * p.mass[i] * b;
-              });
-            },
-            "per particle: sine, cosine");
-        builder.add(Phase::work, "manufactured body force: external work", [force, law](State& state) {
-          const Particles& p = state.particles;
-          const double middle = state.position_time + 0.5 * state.drift;
-          force->for_particles(law, middle, [&](std::size_t i, double b) {
-            state.balance.external_work += state.drift * p.mass[i] * b * p.velocity[i];
-          });
-        });
+        builder.add({.name = "manufactured body force",
+                     .phase = Phase::acceleration,
+                     .reads = {"particles.mass"_field},
+                     .changes = {"particles.velocity"_field, "balance.impulse"_field},
+                     .run = [force, law](State& state) {
+                       Particles& p = state.particles;
+                       force->for_particles(law, state.position_time, [&](std::size_t i, double b) {
+                         p.velocity[i] += state.kick * b;
+                         state.balance.impulse += state.kick * p.mass[i] * b;
+                       });
+                     }});
+        builder.add({.name = "manufactured body force: external work",
+                     .phase = Phase::work,
+                     .reads = {"particles.mass"_field, "particles.velocity"_field},
+                     .changes = {"balance.external_work"_field},
+                     .run = [force, law](State& state) {
+                       const Particles& p = state.particles;
+                       const double middle = state.position_time + 0.5 * state.drift;
+                       force->for_particles(law, middle, [&](std::size_t i, double b) {
+                         state.balance.external_work += state.drift * p.mass[i] * b * p.velocity[i];
+                       });
+                     }});
       },
       make_material(builder.scene.material));
 }
@@ -84,6 +89,8 @@ std::string conflict(const EffectSpec& spec, const Scene& scene) {
   if (scene.initial_displacement)
     return "it starts from the undeformed body: leave out [initial.displacement]";
   if (scene.initial_velocity) return "it brings its own velocity at the start: leave out [initial.velocity]";
+  if (has_memory(scene.material))
+    return "its solution is elastic: `material.law` must not be \"" + scene.material.law + '"';
   const double largest_strain = numerics::pi * std::abs(spec.number("amplitude")) / scene.body.length;
   if (!(largest_strain < 1.0))
     return "its solution turns the body inside out: `amplitude` must be below length/π";

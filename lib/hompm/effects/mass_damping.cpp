@@ -6,11 +6,15 @@ namespace {
 
 /// f_i = −β ∫ρ v N_i: b = −β v in the continuum. The row sum M_i v_i instead would be unstable with
 /// consistent mass, whose inverse is large for the modes that alternate from cell to cell.
-void join(const EffectSpec& spec, PlanBuilder& builder) {
-  if (builder.update_momentum)
-    builder.add(Phase::damping_force, "momentum of the grid velocity", builder.update_momentum);
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
+  if (const auto& grid = builder.discretisation; !grid->keeps_momentum())
+    builder.add({.name = "momentum of the grid velocity",
+                 .phase = Phase::damping_force,
+                 .reads = grid->reads(),
+                 .writes = {"grid.momentum"_field},
+                 .run = [grid](State& state) { grid->find_momentum(state); }});
   join_grid_damping(
-      builder, "mass-proportional damping",
+      builder, "mass-proportional damping", {"grid.momentum"_field},
       [rate = spec.number("rate")](double momentum, double, double) { return -rate * momentum; });
 }
 

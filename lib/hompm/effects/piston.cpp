@@ -9,21 +9,18 @@ namespace hompm::detail {
 namespace {
 
 /// The end moves with v(t) a(t): J = (v a − v_e)/w, with a in the middle of the drift.
-void join(const EffectSpec& spec, PlanBuilder& builder) {
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
   const Side side = side_of(spec);
   const double velocity = spec.number("velocity");
   const Amplitude amplitude = amplitude_of(spec);
-  if (builder.wants_end_stress) join_own_stress(side, builder);
-  builder.add(
-      Phase::constraint, "piston",
-      [velocity, amplitude, end = BodyEnd(builder, side)](State& state) mutable {
-        end.find(state);
-        const double wanted = velocity * amplitude(state.position_time + 0.5 * state.drift);
-        const double impulse = (wanted - end.velocity()) / end.compliance();
-        end.push(state, impulse);
-        state.balance.external_work += end.work(impulse);
-      },
-      BodyEnd::arrays);
+  join_own_stress(side, builder);
+  const BodyEnd end(builder, side);
+  builder.add(end.stage("piston", [velocity, amplitude, end](State& state) {
+    const auto response = end.find(state);
+    const double wanted = velocity * amplitude(state.position_time + 0.5 * state.drift);
+    const double impulse = (wanted - response.velocity) / response.compliance;
+    state.balance.external_work += end.push(state, response, impulse);
+  }));
 }
 
 /// Of a body with its velocity, and with the strain of a wave that brings it.
@@ -48,7 +45,8 @@ EffectType piston() {
           .join = join,
           .conflict = conflict_of_held_end,
           .outlook = outlook,
-          .holds_end = true};
+          .holds_end = true,
+          .join_linear = join_standing_end};
 }
 
 }  // namespace hompm::detail

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 
 #include <hompm/effects/registry.hpp>
 
@@ -39,6 +40,18 @@ LoadOutlook outlook(const Scene& scene) {
     sum.energy += own.energy;
   }
   return sum;
+}
+
+void join_linear_ends(const Scene& scene, LinearEnd how, const PlanBuilder& builder) {
+  for (const auto& [side, end, name] :
+       {std::tuple{Side::left, scene.ends.left, "left"}, std::tuple{Side::right, scene.ends.right, "right"}})
+    for (const EffectSpec& spec : scene.effects) {
+      const EffectType& type = find_effect(scene, spec);
+      if (end == End::fixed || type.join_linear == nullptr) continue;
+      if (!type.couples() && spec.text("end") != name) continue;
+      type.join_linear(side, how, builder);
+      break;
+    }
 }
 
 SmallMotion small_motion(const Scene& scene) {

@@ -42,27 +42,34 @@ struct LoadOutlook {
   double energy = 0.0;        ///< J/m², about as much as it may give to the body in the time of the run
 };
 
+enum class Side { left, right };
+
+/// The critical time step is first that of ends which move as if nothing held them, and must then leave the
+/// motion bounded where they are held (docs/stability.md).
+enum class LinearEnd { let_go, held };
+
 /// One row of the catalogue.
 struct EffectType {
   std::string name;
   std::string meaning;
   std::vector<EffectParameter> parameters;
   /// Adds the stages of the effect to a plan.
-  void (*join)(const EffectSpec& spec, PlanBuilder& plan);
+  void (*join)(const EffectSpec& spec, const PlanBuilder& builder);
   /// Why the effect does not go with the rest of the scene; "" where it does.
   std::string (*conflict)(const EffectSpec& spec, const Scene& scene) = nullptr;
   /// What the effect does to small motions, and so to the critical step; null: nothing.
   SmallMotion (*small_motion)(const EffectSpec& spec, const Scene& scene) = nullptr;
   /// What a load may do; null for what is none.
   LoadOutlook (*outlook)(const EffectSpec& spec, const Scene& scene) = nullptr;
-  /// Changes the state at t = 0, before the plan is made: fields that only this effect needs, initial values.
+  /// Changes the state at t = 0, before the plan is made: the velocity, say.
   void (*prepare)(const EffectSpec& spec, const Scene& scene, State& state) = nullptr;
   /// Decides how an end moves (its parameter `end`, which must be free): one such effect at each end, joined
   /// after all others.
   bool holds_end = false;
-  /// Such an end carries the stress of its own stretch, and may all the same move as if nothing held it: with
-  /// its fellow, or against a force. The critical step is then that of an end with its own stress.
-  bool own_stress = false;
+  /// What such an effect does to one end in the linear step of the critical time step.
+  void (*join_linear)(Side side, LinearEnd how, const PlanBuilder& builder) = nullptr;
+  /// Adds to the total stress: `StageBuilder::add_total_stress` has been called before it joins.
+  bool adds_stress = false;
   /// In place of `join`: couples the right end of a body to the left end of the next; both are held, and
   /// free.
   void (*join_pair)(const EffectSpec& spec, const PairBuilder& pair) = nullptr;
@@ -88,6 +95,9 @@ void prepare_effects(const Scene& scene, State& state);
 
 /// What the loads of the scene may do together.
 LoadOutlook outlook(const Scene& scene);
+
+/// `EffectType::join_linear` at all free ends of a body, once each.
+void join_linear_ends(const Scene& scene, LinearEnd how, const PlanBuilder& builder);
 
 /// What the `small_motion` of all effects of the scene comes to.
 SmallMotion small_motion(const Scene& scene);

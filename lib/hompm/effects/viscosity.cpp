@@ -5,7 +5,7 @@ namespace hompm::detail {
 namespace {
 
 /// σ + η ∂v/∂x: Kelvin–Voigt with the law linear.
-void join(const EffectSpec& spec, PlanBuilder& builder) {
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
   join_viscous_stress(
       builder, "viscosity",
       [eta = spec.number("viscosity")](const State&, std::size_t, double rate) { return eta * rate; });
@@ -26,7 +26,8 @@ EffectType viscosity() {
                           .minimum = 0.0}},
           .join = join,
           .conflict = needs_forward_kicks,
-          .small_motion = small_motion};
+          .small_motion = small_motion,
+          .adds_stress = true};
 }
 
 }  // namespace hompm::detail

@@ -1,5 +1,3 @@
-#include <memory>
-
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/error.hpp>
@@ -25,29 +23,28 @@ void check_position(const EffectSpec& spec, const State& state, Side side, doubl
 /// The end may close the gap g to the wall within the drift, and no more: outward v_e ≤ g/δ, by an impulse
 /// that pushes. A condition on velocities in the manner of J. J. Moreau (1988) that keeps the positions apart
 /// too: there is no penetration, and no stiffness to choose.
-void join(const EffectSpec& spec, PlanBuilder& builder) {
+void join(const EffectSpec& spec, const PlanBuilder& builder) {
   const Side side = side_of(spec);
   const double n = outward(side);
   const double position = spec.number("position");
-  const auto end = std::make_shared<BodyEnd>(builder, side);
-  check_position(spec, builder.state, side, position, end->position(builder.state));
-  const auto gap = [=](const State& state) { return n * (position - end->position(state)); };
-  if (builder.wants_end_stress)
-    builder.add(Phase::end_stress, "wall: a marker in contact carries its own stress",
-                [=](State& state) { carry_contact_stress(state, side, gap(state)); });
-  builder.add(
-      Phase::constraint, "wall",
-      [=](State& state) {
-        const double excess = n * end->velocity_now(state) - approach_limit(state, gap(state));
-        if (!(excess > 0.0)) return;
-        end->find(state);
-        const double impulse = -n * excess / end->compliance();
-        end->push(state, impulse);
-        state.balance.dissipated -= end->work(impulse);
-      },
-      BodyEnd::arrays);
+  const Field total = builder.plan.total_stress;
+  const BodyEnd end(builder, side);
+  check_position(spec, builder.state, side, position, end.position(builder.state));
+  const auto gap = [=](const State& state) { return n * (position - end.position(state)); };
+  if (builder.has_markers())
+    builder.add({.name = "wall: a marker in contact carries its own stress",
+                 .phase = Phase::end_stress,
+                 .reads = {"particles.displacement"_field, total},
+                 .changes = {side == Side::right ? "right_stress"_field : "left_stress"_field},
+                 .run = [=](State& state) { carry_contact_stress(state, total, side, gap(state)); }});
+  builder.add(end.stage("wall", [=](State& state) {
+    const double excess = n * end.velocity(state) - approach_limit(state, gap(state));
+    if (!(excess > 0.0)) return;
+    const auto response = end.find(state);
+    state.balance.dissipated -= end.push(state, response, -n * excess / response.compliance);
+  }));
   builder.plan.arrivals.push_back(
-      [=](const State& state) { return arrival_of(state, gap(state), n * end->velocity_now(state)); });
+      [=](const State& state) { return arrival_of(state, gap(state), n * end.velocity(state)); });
 }
 
 }  // namespace
@@ -59,7 +56,8 @@ EffectType wall() {
                          which_end("right")},
           .join = join,
           .conflict = conflict_of_held_end,
-          .holds_end = true};
+          .holds_end = true,
+          .join_linear = join_standing_end};
 }
 
 }  // namespace hompm::detail

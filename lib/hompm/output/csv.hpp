@@ -8,11 +8,14 @@
 
 namespace hompm::detail {
 
-/// `time,particle`, `body` where there are several, and the names of `columns`. Throws `FileError`.
-void write_header(TextFile& file, std::span<const ParticleColumn> columns, bool several_bodies);
+/// `time,particle`, `body` where there are several, the names of `columns` and of `reported`. Throws
+/// `FileError`.
+void write_header(TextFile& file, std::span<const ParticleColumn> columns, bool several_bodies,
+                  std::span<const ReportedField> reported = {});
 /// One row per particle of `snapshot`, numbered from 0 through all bodies. Throws `FileError`, and `Error`
 /// for a value that is not finite.
-void write_rows(TextFile& file, std::span<const ParticleColumn> columns, const Snapshot& snapshot);
+void write_rows(TextFile& file, std::span<const ParticleColumn> columns, const Snapshot& snapshot,
+                std::span<const ReportedField> reported = {});
 
 /// `time` and the names of the balances. Throws `FileError`.
 void write_history_header(TextFile& file);

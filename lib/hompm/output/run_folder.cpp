@@ -57,19 +57,20 @@ void remove_earlier_run(const fs::path& folder) {
 /// Looked at before anything is written, so that a bad snapshot leaves the files as they were.
 void check(const Snapshot& snapshot) {
   const auto at = [&] { return " at time " + to_text(snapshot.time); };
-  for (const auto& column : detail::all_columns) {
-    const auto& values = snapshot.*column.values;
+  const auto check_values = [&](std::string_view name, const std::vector<double>& values) {
     if (values.size() != snapshot.size()) {
       throw Error("the snapshot" + at() + " has " + std::to_string(values.size()) + " values of " +
-                  std::string(column.name) + " for " + std::to_string(snapshot.size()) + " particles");
+                  std::string(name) + " for " + std::to_string(snapshot.size()) + " particles");
     }
     const auto bad =
         std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
     if (bad != values.end()) {
-      throw Error(std::string(column.name) + " of particle " + std::to_string(bad - values.begin()) + at() +
+      throw Error(std::string(name) + " of particle " + std::to_string(bad - values.begin()) + at() +
                   " is not finite and cannot be written");
     }
-  }
+  };
+  for (const auto& column : detail::all_columns) check_values(column.name, snapshot.*column.values);
+  for (const auto& field : snapshot.reported) check_values(field.name, field.values);
 }
 
 void check(const HistoryRow& row) {
@@ -94,6 +95,13 @@ class RunFolder::Contents {
   bool with_vtk;
   std::vector<double> vtk_times;
   bool whole = true;  // no write failed half-way
+  bool headed = false;
+
+  void write_headers(const Snapshot& first) {
+    if (std::exchange(headed, true)) return;
+    write_header(particles, detail::particle_columns, !first.body.empty(), first.reported);
+    write_header(stress, detail::stress_columns, !first.body.empty());
+  }
 
   /// Does `work`; should it throw, the files are no longer a whole run.
   template <class Work>
@@ -105,10 +113,8 @@ class RunFolder::Contents {
   }
 };
 
-RunFolder::RunFolder(fs::path folder, bool vtk, bool several_bodies)
+RunFolder::RunFolder(fs::path folder, bool vtk)
     : contents_(std::make_unique<Contents>(std::move(folder), vtk)) {
-  write_header(contents_->particles, detail::particle_columns, several_bodies);
-  write_header(contents_->stress, detail::stress_columns, several_bodies);
   write_history_header(contents_->history);
 }
 
@@ -119,7 +125,8 @@ const fs::path& RunFolder::path() const { return contents_->staging.path(); }
 void RunFolder::write(const Snapshot& snapshot) {
   check(snapshot);
   contents_->change([&] {
-    write_rows(contents_->particles, detail::particle_columns, snapshot);
+    contents_->write_headers(snapshot);
+    write_rows(contents_->particles, detail::particle_columns, snapshot, snapshot.reported);
     write_rows(contents_->stress, detail::stress_columns, snapshot);
     if (!contents_->with_vtk) return;
     auto file = contents_->staging.create(detail::vtu_name(contents_->vtk_times.size()));
@@ -162,8 +169,8 @@ void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
   contents_->whole = false;
   auto& staging = contents_->staging;
   auto rows = staging.create("invalid/last_valid.csv");
-  write_header(rows, detail::all_columns, !last.body.empty());
-  write_rows(rows, detail::all_columns, last);
+  write_header(rows, detail::all_columns, !last.body.empty(), last.reported);
+  write_rows(rows, detail::all_columns, last, last.reported);
   rows.close();
   auto text = staging.create("invalid/reason.txt");
   text << reason << "\n";
@@ -177,6 +184,7 @@ void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
 void RunFolder::publish(bool keep_checkpoint) {
   auto& staging = contents_->staging;
   contents_->change([&] {
+    contents_->write_headers({});
     contents_->particles.close();
     contents_->stress.close();
     contents_->history.close();

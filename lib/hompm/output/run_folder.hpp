@@ -21,9 +21,9 @@ class RunFolder {
  public:
   /// Creates `folder` (and its parents) and a staging folder inside it; nobody else can write there as long
   /// as the object lives. Throws `FileError` naming the path and the reason when that is impossible, or
-  /// somebody else is writing there. With `vtk`, snapshots are also written as vtk/*.vtu with run.pvd. With
-  /// `several_bodies`, which the snapshots must then name, the tables of particles have a column `body`.
-  RunFolder(std::filesystem::path folder, bool vtk, bool several_bodies = false);
+  /// somebody else is writing there. With `vtk`, snapshots are also written as vtk/*.vtu with run.pvd. The
+  /// first snapshot says whether there is a column `body`, and which fields are reported beside the usual.
+  RunFolder(std::filesystem::path folder, bool vtk);
   /// Removes what `publish` did not move into place, and the folders the constructor created if they are
   /// empty.
   ~RunFolder();

@@ -43,6 +43,9 @@ void write_vtu(TextFile& file, const Snapshot& snapshot) {
     write_array(file, "type=\"Float64\" Name=\"" + std::string(field.name) + "\"", n,
                 [&](std::size_t i) { file << readable((snapshot.*field.values)[i]); });
   }
+  for (const auto& field : snapshot.reported)
+    write_array(file, "type=\"Float64\" Name=\"" + field.name + "\"", n,
+                [&](std::size_t i) { file << readable(field.values[i]); });
   write_array(file, "type=\"Int64\" Name=\"particle\"", n, [&](std::size_t i) { file << i; });
   if (!snapshot.body.empty())
     write_array(file, "type=\"Int64\" Name=\"body\"", n,

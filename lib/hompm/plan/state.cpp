@@ -34,7 +34,6 @@ void displace(const InitialField& displacement, const Scene& scene, State& state
   Particles& p = state.particles;
   const double length = scene.body.length;
   const auto place = [&](double X) { return (X - scene.body.left()) / length; };
-  const auto moved = [&](double X) { return X + displacement.at(place(X), length); };
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double at = place(p.reference_position[i]);
     p.displacement[i] = displacement.at(at, length);
@@ -49,14 +48,26 @@ void displace(const InitialField& displacement, const Scene& scene, State& state
   for (std::size_t i = 0; i < p.size(); ++i) p.volume[i] = p.reference_volume[i] * p.stretch[i];
   if (!state.basis_moves) return;
   for (std::size_t i = 0; i < p.size(); ++i) p.position[i] = p.reference_position[i] + p.displacement[i];
-  for (double& end : p.right_end) end = moved(end);
-  state.left_boundary = moved(state.left_boundary);
-  state.right_boundary = moved(state.right_boundary);
+  state.left_boundary = scene.displaced(state.left_boundary);
+  state.right_boundary = scene.displaced(state.right_boundary);
+}
+
+/// Distances of the particles from the left end of the body (m), markers included.
+std::vector<double> reference_places(const Scene& scene) {
+  const double length = scene.body.length;
+  const auto count = static_cast<std::size_t>(scene.scheme.cells) *
+                     static_cast<std::size_t>(scene.scheme.particles_per_cell);
+  std::vector<double> places;
+  if (scene.scheme.choices.markers) places.push_back(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+    places.push_back(length * (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count)));
+  if (scene.scheme.choices.markers) places.push_back(length);
+  return places;
 }
 
 }  // namespace
 
-State initial_state(const Scene& scene) {
+State undeformed_state(const Scene& scene) {
   State state{.grid = make_grid(scene),
               .ends = scene.ends,
               .particles = {},
@@ -64,31 +75,19 @@ State initial_state(const Scene& scene) {
               .fields = {},
               .balance = {}};
   const SchemeChoices& choices = scene.scheme.choices;
-  state.moves = scene.kinematics == Kinematics::finite;
-  state.basis_moves = state.moves && choices.formulation == Formulation::updated_lagrangian;
-  const auto per_cell = static_cast<std::size_t>(scene.scheme.particles_per_cell);
-  const auto count = static_cast<std::size_t>(scene.scheme.cells) * per_cell;
-  const double volume = scene.body.length / static_cast<double>(count);
-
   Particles& p = state.particles;
-  const bool markers = choices.markers;
-  p.markers = markers ? 1 : 0;
-  if (markers) p.reference_position.push_back(0.0);
-  for (std::size_t i = 0; i < count; ++i)
-    p.reference_position.push_back(scene.body.length *
-                                   (static_cast<double>(2 * i + 1) / static_cast<double>(2 * count)));
-  if (markers) p.reference_position.push_back(scene.body.length);
+  p.markers = choices.markers ? 1 : 0;
+  p.reference_position = reference_places(scene);
   const std::size_t sites = p.reference_position.size();
-  p.velocity.assign(sites, 0.0);
-  if (const auto& initial = scene.initial_velocity)
-    for (std::size_t i = 0; i < sites; ++i)
-      p.velocity[i] = initial->at(p.reference_position[i] / scene.body.length, scene.body.length);
+  const double volume = scene.body.length / static_cast<double>(sites - 2 * p.markers);
   for (double& X : p.reference_position) X += scene.body.left();
   p.position = p.reference_position;
+  p.velocity.assign(sites, 0.0);
   p.displacement.assign(sites, 0.0);
   p.reference_volume.assign(sites, volume);
   p.mass.assign(sites, scene.material.density * volume);
-  if (markers) p.mass.front() = p.mass.back() = p.reference_volume.front() = p.reference_volume.back() = 0.0;
+  if (p.markers > 0)
+    p.mass.front() = p.mass.back() = p.reference_volume.front() = p.reference_volume.back() = 0.0;
   p.volume = p.reference_volume;
   p.reference_density.assign(sites, scene.material.density);
   p.stretch.assign(sites, 1.0);
@@ -96,14 +95,6 @@ State initial_state(const Scene& scene) {
   for (const double mass : p.mass) state.total_mass += mass;
   state.left_boundary = scene.body.left();
   state.right_boundary = scene.body.right();
-
-  if (choices.basis == Basis::carried_domains)
-    for (std::size_t i = 0; i < count; ++i)
-      p.right_end.push_back(i + 1 == count ? scene.body.right()
-                                           : 0.5 * (p.reference_position[i] + p.reference_position[i + 1]));
-  if (choices.transfer == Transfer::apic) p.velocity_gradient.assign(sites, 0.0);
-
-  if (scene.initial_displacement) displace(*scene.initial_displacement, scene, state);
 
   const std::size_t stencil =
       static_cast<std::size_t>(choices.basis == Basis::splines ? scene.scheme.degree + 1 : domain_stencil);
@@ -114,6 +105,19 @@ State initial_state(const Scene& scene) {
   GridFields& g = state.fields;
   for (auto* field : {&g.mass, &g.internal_force, &g.force, &g.acceleration, &g.momentum, &g.velocity})
     field->assign(static_cast<std::size_t>(state.grid.functions()), 0.0);
+  return state;
+}
+
+State initial_state(const Scene& scene) {
+  State state = undeformed_state(scene);
+  state.moves = scene.kinematics == Kinematics::finite;
+  state.basis_moves = state.moves && scene.scheme.choices.formulation == Formulation::updated_lagrangian;
+  if (const auto& initial = scene.initial_velocity) {
+    const std::vector<double> places = reference_places(scene);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      state.particles.velocity[i] = initial->at(places[i] / scene.body.length, scene.body.length);
+  }
+  if (scene.initial_displacement) displace(*scene.initial_displacement, scene, state);
   return state;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <hompm/numerics/spline_space.hpp>
+#include <hompm/plan/field.hpp>
 #include <hompm/scene/scene.hpp>
 
 namespace hompm {
@@ -26,10 +27,7 @@ struct Particles {
   std::vector<double> reference_volume;    ///< m
   std::vector<double> volume;              ///< V = V0 λ, m (V0 with infinitesimal kinematics)
   std::vector<double> stretch;             ///< λ
-  std::vector<double> stress;              ///< σ, Pa
-  std::vector<double> plastic_strain;      ///< ε_p; empty unless an effect needs it
-  std::vector<double> right_end;           ///< of the domain, m; empty unless the grid carries it along
-  std::vector<double> velocity_gradient;   ///< 1/s, carried by APIC; empty without
+  std::vector<double> stress;              ///< σ of the law, Pa; see Plan::total_stress
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }  ///< markers included
 };
@@ -52,7 +50,7 @@ struct GridFields {
   std::vector<double> internal_force;  ///< Pa
   std::vector<double> force;           ///< out of balance: external − internal, Pa
   std::vector<double> acceleration;    ///< m/s²
-  std::vector<double> momentum;        ///< ∫ρ v N_i, kg/(m s), see PlanBuilder::update_momentum
+  std::vector<double> momentum;        ///< ∫ρ v N_i, kg/(m s), see Discretisation::find_momentum
   std::vector<double> velocity;        ///< of the last projection, m/s
 };
 
@@ -66,15 +64,16 @@ struct Balance {
 struct State {
   std::int64_t step = 0;
   double time = 0.0;           ///< s, at the end of the step under way
+  double time_rest = 0.0;      ///< s, what rounding left of it
   double position_time = 0.0;  ///< s, of the positions at which its forces act
-  double time_step = 0.0;      ///< s
+  double time_step = 0.0;      ///< s, of the step under way; with it goes the kick that it leaves to the next
   double kick = 0.0;           ///< s, by which the part of the step under way changes velocities
   double drift = 0.0;          ///< s, by which it changes positions
 
   numerics::SplineSpace grid;
   Ends ends;
-  bool moves = true;           ///< finite kinematics
-  bool basis_moves = true;     ///< the same, but for total Lagrangian formulations: particles cross cells
+  bool moves = false;          ///< finite kinematics
+  bool basis_moves = false;    ///< the same, but for total Lagrangian formulations: particles cross cells
   double total_mass = 0.0;     ///< kg/m²
   double left_boundary = 0.0;  ///< of the material, m
   double right_boundary = 0.0;
@@ -86,6 +85,18 @@ struct State {
   BasisAtParticles basis;
   GridFields fields;
   Balance balance;
+  std::vector<DeclaredField> declared = {};  ///< by effects, laws and schemes
+
+  /// The array of a field: a declared one, or a member that holds a `double` for each entry.
+  [[nodiscard]] std::vector<double>& operator[](Field field);
+  [[nodiscard]] const std::vector<double>& operator[](Field field) const {
+    return const_cast<State&>(*this)[field];
+  }
+  /// The declared field "particles.right_end", say; null where there is none.
+  [[nodiscard]] std::vector<double>* find(std::string_view name);
+  [[nodiscard]] const std::vector<double>* find(std::string_view name) const {
+    return const_cast<State&>(*this).find(name);
+  }
 
   /// Volumes (m) and densities (kg/m³) in the configuration on which the basis lives.
   [[nodiscard]] const std::vector<double>& basis_volumes() const {
@@ -101,6 +112,18 @@ struct State {
                  : particles.reference_density[particle];
   }
 };
+
+/// A workspace of type `T`, as `StageBuilder::own` declared it.
+template <class T>
+struct Own {
+  Field field = {};
+  explicit operator bool() const { return static_cast<bool>(field); }
+  [[nodiscard]] T& of(State& state) const;
+  [[nodiscard]] const T& of(const State& state) const { return of(const_cast<State&>(state)); }
+};
+
+/// The undeformed body at rest, with infinitesimal kinematics: what the linear step begins with.
+State undeformed_state(const Scene& scene);
 
 /// The state of a scene at t = 0: particles at (2i − 1)/(2k) of each cell with equal volumes, initial
 /// velocity, displaced as the scene says and stressed by that; the grid reaches `margin_cells` beyond each

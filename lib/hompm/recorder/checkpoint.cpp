@@ -59,6 +59,12 @@ void write_records(ByteWriter& out, const Checkpoint& checkpoint) {
     out.word(snapshot.size());
     for (const auto& column : detail::all_columns)
       for (const double value : snapshot.*column.values) out.number(value);
+    out.word(snapshot.reported.size());
+    for (const ReportedField& field : snapshot.reported) {
+      out.text(field.name);
+      out.text(field.unit);
+      for (const double value : field.values) out.number(value);
+    }
   }
 }
 
@@ -73,10 +79,16 @@ void read_records(ByteReader& in, Checkpoint& checkpoint) {
   for (Snapshot& snapshot : checkpoint.snapshots) {
     snapshot.time = in.number();
     if (in.word() != bodies.size()) throw Error("a snapshot in it does not fit its scene");
-    for (const auto& column : detail::all_columns) {
-      auto& values = snapshot.*column.values;
+    const auto read = [&](std::vector<double>& values) {
       values.resize(bodies.size());
       for (double& value : values) value = in.number();
+    };
+    for (const auto& column : detail::all_columns) read(snapshot.*column.values);
+    snapshot.reported.resize(in.count(16));
+    for (ReportedField& field : snapshot.reported) {
+      field.name = in.text();
+      field.unit = in.text();
+      read(field.values);
     }
     if (!checkpoint.scene.bodies.empty()) snapshot.body = bodies;
   }
@@ -104,12 +116,12 @@ void check_room(const Scene& scene, std::size_t bytes) {
   if (static_cast<std::uint64_t>(values) > bytes / 8) throw detail::BytesEnd();
 }
 
-Checkpoint read_content(std::string_view bytes, const std::string& source) {
+Checkpoint read_content(std::string_view bytes, const std::string& source, const EffectCatalogue& effects) {
   ByteReader in(bytes);
   if (const std::string writer = in.text(); writer != identity())
     throw Error("it was written by hompm " + writer + ", and this is " + identity() +
                 ": the result would be that of neither");
-  const Scene scene = parse_scene(in.text(), "scene in " + source, {});
+  const Scene scene = parse_scene(in.text(), "scene in " + source, {}, effects);
   check_room(scene, in.left());
   Checkpoint checkpoint = first_checkpoint(scene);
   detail::read_value(in, checkpoint.every);
@@ -126,7 +138,7 @@ Checkpoint read_content(std::string_view bytes, const std::string& source) {
 }  // namespace
 
 Checkpoint first_checkpoint(const Scene& scene) {
-  return {.scene = scene, .history = {}, .snapshots = {}, .point = {start_states(scene)}};
+  return {.scene = scene, .history = {}, .snapshots = {}, .point = {Simulation(scene, 0.0).states()}};
 }
 
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {
@@ -149,7 +161,8 @@ std::string checkpoint_bytes(const Checkpoint& checkpoint) {
   return head.bytes + rest.bytes;
 }
 
-Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source) {
+Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source,
+                            const EffectCatalogue& effects) {
   const auto refuse = [&](const std::string& reason) {
     throw CheckpointError("cannot resume from " + source + ": " + reason);
   };
@@ -169,7 +182,7 @@ Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source)
   if (rest.size() > length) refuse("it is damaged: it is longer than it says");
   if (detail::hash_of_bytes(rest) != hash) refuse("it is damaged: its checksum does not match");
   try {
-    return read_content(rest, source);
+    return read_content(rest, source, effects);
   } catch (const Error& error) {
     throw CheckpointError("cannot resume from " + source + ": " + error.what());
   }
@@ -181,14 +194,14 @@ std::filesystem::path checkpoint_folder(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& path) {
+Checkpoint read_checkpoint(const std::filesystem::path& path, const EffectCatalogue& effects) {
   const auto folder = checkpoint_folder(path);
   const auto file = folder == path ? path / checkpoint_name : path;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(folder / "run.json", ignored))
     throw CheckpointError("cannot resume from " + path.string() +
                           ": there is no checkpoint, and the run in " + folder.string() + " is complete");
-  return parse_checkpoint(detail::read_bytes(file), path.string());
+  return parse_checkpoint(detail::read_bytes(file), path.string(), effects);
 }
 
 }  // namespace hompm

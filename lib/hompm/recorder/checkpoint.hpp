@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/simulation/run.hpp>
 
 namespace hompm {
@@ -40,15 +41,18 @@ Checkpoint first_checkpoint(const Scene& scene);
 /// build: another one may compute other bits.
 std::string checkpoint_bytes(const Checkpoint& checkpoint);
 
-/// What `checkpoint_bytes` gave; `source` is the name of the file in messages. Throws `CheckpointError` for
-/// anything that is not a whole checkpoint of this version and commit.
-Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source);
+/// What `checkpoint_bytes` gave; `source` is the name of the file in messages, `effects` what its scene may
+/// call for, which must outlive it. Throws `CheckpointError` for anything that is not a whole checkpoint of
+/// this version and commit.
+Checkpoint parse_checkpoint(const std::string& bytes, const std::string& source,
+                            const EffectCatalogue& effects = effect_catalogue());
 
 /// The run folder in which the checkpoint `path` lies; `path` may be that folder.
 std::filesystem::path checkpoint_folder(const std::filesystem::path& path);
 
 /// The checkpoint in the file `path`, or in the run folder `path`. Throws `FileError` when it cannot be read,
 /// else as above.
-Checkpoint read_checkpoint(const std::filesystem::path& path);
+Checkpoint read_checkpoint(const std::filesystem::path& path,
+                           const EffectCatalogue& effects = effect_catalogue());
 
 }  // namespace hompm

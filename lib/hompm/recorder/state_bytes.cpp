@@ -1,20 +1,21 @@
-#include <hompm/plan/state_fields.hpp>
+#include <hompm/plan/fields.hpp>
 #include <hompm/recorder/state_bytes.hpp>
 
 namespace hompm::detail {
 
 void write_state(ByteWriter& out, const State& state) {
-  visit_fields(state, [&](std::string_view name, Site, auto values) {
-    out.text(name);
+  visit_fields(state, [&](const FieldInfo& info, auto values) {
+    out.text(info.name);
     out.word(values.size());
     for (const auto value : values) out.word(word_of(value));
   });
 }
 
 void read_state(ByteReader& in, State& state) {
-  visit_fields(state, [&](std::string_view name, Site, auto values) {
+  visit_fields(state, [&](const FieldInfo& info, auto values) {
     const std::string found = in.text();
-    if (found != name) throw Error("it has the field " + found + " in place of " + std::string(name));
+    if (found != info.name)
+      throw Error("it has the field " + found + " in place of " + std::string(info.name));
     if (in.count(8) != values.size()) throw Error("its field " + found + " does not fit its scene");
     for (auto& value : values) read_value(in, value);
   });

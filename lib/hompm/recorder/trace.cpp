@@ -7,7 +7,7 @@
 
 #include <hompm/build_info.hpp>
 #include <hompm/output/text_file.hpp>
-#include <hompm/plan/state_fields.hpp>
+#include <hompm/plan/fields.hpp>
 #include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/trace.hpp>
 #include <hompm/recorder/trace_format.hpp>
@@ -60,18 +60,18 @@ class Trace::Recorder {
     }
     for (const State& state : states_) {
       first_field_.push_back(before_.size());
-      visit_fields(state, [&](std::string_view, Site, auto values) {
+      visit_fields(state, [&](const FieldInfo&, auto values) {
         const auto bytes = std::as_bytes(values);
         before_.emplace_back(bytes.begin(), bytes.end());
       });
     }
     out_.word(before_.size());
     for (std::size_t body = 0; body < states_.size(); ++body)
-      visit_fields(states_[body], [&](std::string_view name, Site site, auto values) {
+      visit_fields(states_[body], [&](const FieldInfo& info, auto values) {
         using Value = typename decltype(values)::value_type;
-        out_.text(name);
+        out_.text(info.name);
         out_.word(body);
-        out_.word(static_cast<std::uint64_t>(site));
+        out_.word(static_cast<std::uint64_t>(info.site));
         out_.word(std::is_integral_v<Value> ? 1 : 0);
         out_.word(values.size());
         out_.word(hash_of(values));
@@ -101,7 +101,7 @@ class Trace::Recorder {
   void record(std::uint16_t stage, std::size_t body, const State& state) {
     if (!is_run(body, state)) return;
     std::size_t field = first_field_[body];
-    visit_fields(state, [&](std::string_view, Site, auto values) {
+    visit_fields(state, [&](const FieldInfo&, auto values) {
       const auto bytes = std::as_bytes(values);
       auto& before = before_[field];
       if (bytes.size() != before.size() || std::memcmp(bytes.data(), before.data(), bytes.size()) != 0) {
@@ -142,7 +142,7 @@ class Trace::Recorder {
     if (!with_values_ || before) return;
     out_.word<2>(detail::all_values);
     for (const State& state : states_)
-      visit_fields(state, [&](std::string_view, Site, auto values) { write_values(values); });
+      visit_fields(state, [&](const FieldInfo&, auto values) { write_values(values); });
   }
 
   template <class Values>
@@ -199,7 +199,9 @@ Trace::~Trace() {
 
 void Trace::attach(const Scene& scene, Simulation& simulation) {
   Recorder* const recorder = recorder_.get();
-  const auto own = [](auto run) { return Stage{"trace", "", "trace", run}; };
+  const auto own = [](auto run) {
+    return Stage{.name = "trace", .phase = {}, .run = run, .called_by = "trace"};
+  };
   const bool several = simulation.bodies() > 1;
   std::vector<StageName> stages;  // in the order in which they run
   std::vector<Coupling> couplings;
@@ -222,19 +224,22 @@ void Trace::attach(const Scene& scene, Simulation& simulation) {
           {coupling.name + " of bodies " + std::to_string(left) + " and " + std::to_string(left + 1),
            coupling.called_by});
       couplings.push_back(std::move(coupling));
-      couplings.push_back({static_cast<Phase>(phase), "trace", "trace", left,
-                           [=, number = static_cast<std::uint16_t>(stages.size())](State& a, State& b) {
-                             recorder->record(number, left, a);
-                             recorder->record(number, left + 1, b);
-                           }});
+      couplings.push_back(
+          {.name = "trace",
+           .phase = static_cast<Phase>(phase),
+           .left = left,
+           .run = [=, number = static_cast<std::uint16_t>(stages.size())](State& a, State& b) {
+             recorder->record(number, left, a);
+             recorder->record(number, left + 1, b);
+           }});
     }
   }
   simulation.couplings() = std::move(couplings);
   for (std::size_t body = 0; body < simulation.bodies(); ++body) {
     auto& phases = simulation.plan(body).phases;
     const auto begin = own([=](State& state) { recorder->begin_part(body, state); });
-    // A step without geometry begins with the stresses at the ends.
-    for (const Phase first : {Phase::geometry, Phase::end_stress}) {
+    // Without geometry a step begins with the strain.
+    for (const Phase first : {Phase::geometry, Phase::strain}) {
       auto& phase = phases[static_cast<std::size_t>(first)];
       phase.insert(phase.begin(), begin);
     }

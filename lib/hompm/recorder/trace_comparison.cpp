@@ -50,7 +50,7 @@ std::string particle_text(const TraceFile& file, std::size_t body, std::size_t s
 bool has_several_bodies(const TraceFile& file) { return file.fields.back().body > 0; }
 
 std::string place_of(const TraceFile& file, const TraceField& field, std::size_t entry) {
-  if (field.site == Site::run) return "";
+  if (field.site == Site::body) return "";
   if (field.site == Site::function) return "grid function " + std::to_string(entry);
   if (field.site == Site::particle) return particle_text(file, field.body, entry);
   const std::size_t stencil = field.size / sites_of(file, field.body);

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include <hompm/plan/state_fields.hpp>
+#include <hompm/plan/fields.hpp>
 #include <hompm/recorder/bytes.hpp>
 
 namespace hompm::detail {

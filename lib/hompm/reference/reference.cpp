@@ -270,7 +270,7 @@ std::optional<Reference> reference_at_origin(const Scene& scene, const Reference
 }  // namespace
 
 std::optional<Reference> make_reference(const Scene& scene, const ReferenceWatch& watch) {
-  if (!scene.bodies.empty()) return std::nullopt;
+  if (!scene.bodies.empty() || has_memory(scene.material)) return std::nullopt;
   std::optional<Reference> reference = reference_at_origin(scene, watch);
   if (reference && scene.body.left() != 0.0)
     reference->at = [at = reference->at, left = scene.body.left()](double time, std::span<const double> X) {

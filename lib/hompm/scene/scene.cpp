@@ -35,6 +35,11 @@ double InitialField::slope_at(double place, double length) const {
   return amplitude * (numerics::pi * mode / length) * numerics::cos_pi(mode * place);
 }
 
+double Scene::displaced(double X) const {
+  if (!initial_displacement) return X;
+  return X + initial_displacement->at((X - body.left()) / body.length, body.length);
+}
+
 double InitialField::steepest(double length) const { return std::abs(slope_at(0.0, length)); }
 
 std::vector<const Scene*> bodies_of(const Scene& scene) {

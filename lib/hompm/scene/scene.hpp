@@ -22,9 +22,13 @@ struct Body {
 };
 
 struct MaterialSpec {
-  std::string law;              ///< linear, rate, hencky, neo-hookean
+  std::string law;              ///< a row of `material_laws` (materials/material.hpp)
   double density = 0.0;         ///< kg/m³, of the undeformed material
   double youngs_modulus = 0.0;  ///< Pa
+  /// What else the law asks for; without a value what another law would.
+  std::map<std::string, std::optional<double>> parameters = {};
+
+  [[nodiscard]] double number(const std::string& key) const { return parameters.at(key).value(); }
 };
 
 /// Velocity (m/s) or displacement (m) at t = 0, with X from the left end of the body: sine, amplitude ·
@@ -127,6 +131,9 @@ struct Scene {
   /// effects that act on it. Body, material, ends and the like of this scene are then those of the
   /// first.
   std::vector<Scene> bodies;
+
+  /// x = X + u at t = 0 of a point of the body (m).
+  [[nodiscard]] double displaced(double X) const;
 
   /// What the types of effects mean; null: what the library brings. Must outlive the scene.
   const std::vector<EffectType>* effect_types = nullptr;

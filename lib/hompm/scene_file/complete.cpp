@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include <hompm/materials/material.hpp>
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
@@ -33,17 +34,43 @@ void complete_name(Reading& reading) {
 void complete_kinematics(Reading& reading) {
   Scene& scene = reading.scene;
   if (!reading.has("material.law")) return;
-  const bool small_strain = scene.material.law == "linear";
+  const bool small_strain = find_law(scene.material.law).small_strain;
   const Kinematics demanded = small_strain ? Kinematics::infinitesimal : Kinematics::finite;
   if (reading.silent_on("kinematics")) scene.kinematics = demanded;
   if (!reading.has("kinematics") || scene.kinematics == demanded) return;
   reading.report(reading.said.where("kinematics"),
                  small_strain
-                     ? "the law linear, σ = E (λ − 1), holds for small strain only: it needs kinematics = "
-                       "\"infinitesimal\", not \"finite\""
+                     ? "the law " + scene.material.law +
+                           (scene.material.law == "linear" ? ", σ = E (λ − 1)," : "") +
+                           " holds for small strain only: it needs kinematics = \"infinitesimal\", not "
+                           "\"finite\""
                      : "the law " + scene.material.law +
                            " follows the change of volume: it needs kinematics = \"finite\", not "
                            "\"infinitesimal\"; the small-strain law is linear");
+}
+
+/// Every parameter of the law, and none of another.
+void check_law(Reading& reading) {
+  if (!reading.has("material.law")) return;
+  const MaterialLaw& law = find_law(reading.scene.material.law);
+  bool complete = reading.has("material.youngs_modulus");
+  for (const MaterialLaw& other : material_laws())
+    for (const LawParameter& parameter : other.parameters) {
+      const std::string key = "material." + parameter.name;
+      const bool own = other.name == law.name;
+      complete = complete && (!own || reading.has(key));
+      if (own && reading.silent_on(key) && !reading.meant.contains(key))
+        reading.report(reading.said.where("material.law"), '`' + key + "` is missing; the law " + law.name +
+                                                               " needs " + demand(find_key(key)->rule));
+      if (!own && !reading.silent_on(key) &&
+          std::ranges::find(law.parameters, parameter.name, &LawParameter::name) == law.parameters.end())
+        reading.report(reading.said.where(key),
+                       '`' + key + "` goes with the law " + other.name + ", not " + law.name);
+    }
+  if (!complete || law.conflict == nullptr) return;
+  if (const std::string reason = law.conflict(reading.scene); !reason.empty())
+    reading.report(reading.said.where("material.law"),
+                   "the law " + law.name + " does not go with this scene: " + reason);
 }
 
 /// What is computed from the time of a wave, critical step and relaxation, must not overflow.
@@ -241,6 +268,7 @@ void complete(Reading& reading) {
   } else {
     reading.scene.scheme.degree = 1;  // no scheme says what it may be
   }
+  check_law(reading);
   check_wave_time(reading);
   check_body(reading);
   check_particle_count(reading);

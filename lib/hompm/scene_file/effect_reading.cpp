@@ -58,6 +58,11 @@ void read_parameters(Reading& reading, const EffectType& type, const std::string
   }
 }
 
+std::string said_as(const Reading& reading, const std::string& key) {
+  const auto* const word = std::get_if<std::string>(&reading.said.values.at(key).content);
+  return word != nullptr ? *word : "";
+}
+
 // What acts on an end that does not move would do nothing.
 void check_end(Reading& reading, const EffectSpec& effect, const std::string& path) {
   if (!concerns(reading, effect)) return;
@@ -107,6 +112,11 @@ void read_effects(Reading& reading) {
     const std::string type_key = path + ".type";
     if (reading.silent_on(type_key)) {
       reading.report(table.value, "the `type` of the effect is missing; it must be " + demand(rule));
+    } else if (said_as(reading, type_key) == "plasticity") {
+      reading.report(
+          reading.said.where(type_key),
+          "plasticity is a law now: write law = \"elastoplastic\", yield_stress and tangent_modulus "
+          "into [material]");
     } else if (const auto type = reading.take(type_key, "the `type` of an effect", rule)) {
       effect.type = std::get<std::string>(*type);
       read_parameters(reading, find_effect(reading.scene, effect), path, effect);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include <hompm/materials/material.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scene_file/toml_values.hpp>
@@ -66,6 +67,31 @@ std::string relaxation_rates() {
   return "π c / length with " + names + "; else 0";
 }
 
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const MaterialLaw& law : material_laws()) names.push_back(law.name);
+  return names;
+}
+
+/// What laws ask for beside density and Young's modulus, behind those.
+void add_law_parameters(std::vector<KeyRow>& table) {
+  auto behind = std::ranges::find(table, "material.youngs_modulus", &KeyRow::path) + 1;
+  for (const MaterialLaw& law : material_laws())
+    for (const LawParameter& parameter : law.parameters)
+      behind = 1 + table.insert(behind, {.path = "material." + parameter.name,
+                                         .rule = {.type = ValueType::number,
+                                                  .unit = parameter.unit,
+                                                  .minimum = parameter.minimum,
+                                                  .minimum_excluded = parameter.minimum_excluded},
+                                         .absent = Absent::derived,
+                                         .standard = "",
+                                         .condition = "with the law " + law.name + ", and only there",
+                                         .meaning = parameter.meaning,
+                                         .slot = [name = parameter.name](Scene& scene) -> Slot {
+                                           return &scene.material.parameters[name];
+                                         }});
+}
+
 std::vector<KeyRow> make_key_table() {
   using enum Absent;
   const ValueRule text = any(ValueType::text);
@@ -92,7 +118,7 @@ std::vector<KeyRow> make_key_table() {
       {"body.start", number("m"), derived, "at the origin, 0", "", "where its left end is at t = 0",
        [](Scene& scene) -> Slot { return &scene.body.start; }},
 
-      {"material.law", word({"linear", "rate", "hencky", "neo-hookean"}), missing, "", "", "constitutive law",
+      {"material.law", word(law_names()), missing, "", "", "constitutive law",
        [](Scene& scene) -> Slot { return &scene.material.law; }},
       {"material.density", positive("kg/m³"), missing, "", "", "density of the undeformed material",
        [](Scene& scene) -> Slot { return &scene.material.density; }},
@@ -252,7 +278,11 @@ constexpr std::array optional_tables{
 }  // namespace
 
 const std::vector<KeyRow>& key_table() {
-  static const std::vector<KeyRow> table = make_key_table();
+  static const std::vector<KeyRow> table = [] {
+    std::vector<KeyRow> rows = make_key_table();
+    add_law_parameters(rows);
+    return rows;
+  }();
   return table;
 }
 

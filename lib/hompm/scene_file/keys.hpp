@@ -2,6 +2,7 @@
 // checking, writing and the reference documentation all follow it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,7 +34,7 @@ struct KeyRow {
   std::string standard;
   std::string condition;  ///< what other keys demand of it beside the rule, in words; "" for nothing
   std::string meaning;
-  Slot (*slot)(Scene&);
+  std::function<Slot(Scene&)> slot;
 };
 
 /// Of all bodies together; a key of its own would be out of range by another.

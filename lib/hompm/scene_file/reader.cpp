@@ -102,7 +102,7 @@ void read_bodies(Reading& reading, std::size_t count) {
     if (reading.problems.empty() && scene.kinematics != scenes.front().kinematics)
       reading.report(
           scene.origins.at("material.law"),
-          "all bodies must have the same kinematics: the law linear is infinitesimal, the others are finite");
+          "all bodies must have the same kinematics: those of their laws are infinitesimal and finite");
   if (scenes.size() > 1) reading.scene.bodies = std::move(scenes);
 }
 

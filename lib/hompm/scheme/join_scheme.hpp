@@ -7,6 +7,6 @@
 namespace hompm {
 
 /// Adds the stages that the choices of the builder's scene call for, for its degree, kinematics and ends.
-void join_scheme(const Material& material, PlanBuilder& builder);
+std::shared_ptr<const Discretisation> join_scheme(const Material& material, const StageBuilder& builder);
 
 }  // namespace hompm

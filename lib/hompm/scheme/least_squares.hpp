@@ -20,7 +20,7 @@ namespace hompm::detail {
 /// the last particle to the end of the body is otherwise known too poorly (docs/high-order.md). With
 /// `Conserve::momentum` they get none.
 template <int P>
-class LeastSquares {
+class LeastSquares : public Cloned<Workspace, LeastSquares<P>> {
  public:
   LeastSquares(const State& state, const SchemeChoices& choices)
       : extended_(choices.free_end == FreeEnd::extension),

@@ -4,7 +4,7 @@
 
 namespace hompm::detail {
 
-void mixed_internal_force(State& state) {
+void mixed_internal_force(State& state, const std::vector<double>& stress) {
   const Particles& p = state.particles;
   const std::vector<double>& volumes = state.basis_volumes();
   const std::int32_t* first = state.basis.first.data();
@@ -21,13 +21,13 @@ void mixed_internal_force(State& state) {
     double volume = 0.0, sum = 0.0;
     for (; i < p.size() && first[i] == cell; ++i) {
       volume += volumes[i];
-      sum += volumes[i] * p.stress[i];
+      sum += volumes[i] * stress[i];
     }
     // A marker alone in a cell has no volume.
-    const double stress = is_full(cell) && volume > 0.0 ? sum / volume : sum * inverse_width;
+    const double mean = is_full(cell) && volume > 0.0 ? sum / volume : sum * inverse_width;
     const auto left = static_cast<std::size_t>(cell);
-    force[left] -= stress;
-    force[left + 1] += stress;
+    force[left] -= mean;
+    force[left + 1] += mean;
   }
 }
 

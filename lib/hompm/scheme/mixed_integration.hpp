@@ -10,6 +10,6 @@ namespace hompm::detail {
 /// others it is Σ V_p σ_p / h, particle quadrature. (L. Beuth, Formulation and Application of a Quasi-Static
 /// Material Point Method, University of Stuttgart 2012; I. K. J. Al-Kafaji, Formulation of a Dynamic Material
 /// Point Method, University of Stuttgart 2013.) A cell without particles has no stress.
-void mixed_internal_force(State& state);
+void mixed_internal_force(State& state, const std::vector<double>& stress);
 
 }  // namespace hompm::detail

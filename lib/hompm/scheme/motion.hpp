@@ -144,7 +144,7 @@ void displace(State& state) {
 /// positions (docs/method.md). `Splines` is factorised for the reference positions. Throws `InvalidRun` as
 /// above.
 template <class Splines>
-class StretchFromPositions {
+class StretchFromPositions : public Cloned<Workspace, StretchFromPositions<Splines>> {
  public:
   explicit StretchFromPositions(const Particles& particles)
       : splines_(particles.size()), fit_(particles.size()) {
@@ -180,94 +180,195 @@ class StretchFromPositions {
 /// u_p += Δt/τ (Σ N_i û_i − u_p), û the nearest field on the grid: what of the displacement the grid cannot
 /// see decays with the rate 1/τ of the scene.
 template <int P>
-void join_relaxation(PlanBuilder& builder, const std::shared_ptr<LeastSquares<P>>& least_squares) {
-  const auto projected = std::make_shared<std::vector<double>>(builder.state.fields.mass.size());
-  builder.add(
-      Phase::motion, "null-space relaxation of the displacement",
-      [rate = builder.scene.scheme.relaxation_rate, least_squares, projected](State& state) {
-        auto& u = state.particles.displacement;
-        least_squares->project(state, u, *projected);
-        const double part = state.drift * rate;
-        const Gather<P> seen(state, state.basis.values, *projected);
-        for (std::size_t p = 0; p < u.size(); ++p) u[p] += part * (seen(p) - u[p]);
+void join_relaxation(const StageBuilder& builder, Own<LeastSquares<P>> least_squares) {
+  const Field projected = builder.field({"seen_displacement", "m", "projection of u", Site::function});
+  builder.add({.name = "null-space relaxation of the displacement",
+               .phase = Phase::motion,
+               .reads = {"basis.first"_field, "basis.values"_field, least_squares.field},
+               .changes = {"particles.displacement"_field},
+               .writes = {projected},
+               .run = [=, rate = builder.scheme.relaxation_rate](State& state) {
+                 auto& u = state.particles.displacement;
+                 least_squares.of(state).project(state, u, state[projected]);
+                 const double part = state.drift * rate;
+                 const Gather<P> seen(state, state.basis.values, state[projected]);
+                 for (std::size_t p = 0; p < u.size(); ++p) u[p] += part * (seen(p) - u[p]);
+               }});
+}
+
+/// Calls `visit` with the law by which kernels update the stress: of one with memory that of an elastic step.
+template <class Visit>
+void visit_elastic(const Material& material, Visit visit) {
+  std::visit(
+      [&]<class Law>(const Law& law) {
+        if constexpr (HasMemory<Law>)
+          visit(static_cast<const typename Law::Elastic&>(law));
+        else
+          visit(law);
       },
-      "per function: projected displacement");
+      material);
+}
+
+/// After each update of the stress, of a law with memory: what the law remembers, and what that makes of the
+/// stress.
+inline void join_memory(Phase phase, const Material& material, const StageBuilder& builder) {
+  const auto add = [&]<class Law>(const Law& law) {
+    if constexpr (HasMemory<Law>) {
+      std::array<Field, Law::internal_fields.size()> fields;
+      for (std::size_t k = 0; k < fields.size(); ++k) {
+        const auto& [name, unit, meaning] = Law::internal_fields[k];
+        fields[k] = builder.field({name, unit, meaning, Site::particle, true, true});
+      }
+      const auto arrays = [fields](State& state) {
+        std::array<double*, Law::internal_fields.size()> values;
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] = state[fields[k]].data();
+        return values;
+      };
+      const bool increments = builder.scheme.choices.stress_update == StressUpdate::incremental;
+      Stage stage{.name = "memory of the law",
+                  .phase = phase,
+                  .reads = {"particles.stretch"_field, "particles.reference_volume"_field},
+                  .changes = {fields.begin(), fields.end()},
+                  .run = [=](State& state) {
+                    Particles& p = state.particles;
+                    const std::size_t count = p.size();
+                    const double* stretch = p.stretch.data();
+                    const double* volume = p.reference_volume.data();
+                    double* stress = p.stress.data();
+                    const auto values = arrays(state);
+                    double dissipated = 0.0;
+                    for (std::size_t i = 0; i < count; ++i) {
+                      typename Law::Internal internal;
+                      for (std::size_t k = 0; k < values.size(); ++k) internal[k] = values[k][i];
+                      double s = increments ? stress[i] : law.stress(stretch[i], internal);
+                      dissipated += volume[i] * law.correct(s, internal);
+                      stress[i] = s;
+                      for (std::size_t k = 0; k < values.size(); ++k) values[k][i] = internal[k];
+                    }
+                    state.balance.dissipated += dissipated;
+                  }};
+      stage.changes.insert(stage.changes.end(), {"particles.stress"_field, "balance.dissipated"_field});
+      builder.add(std::move(stage));
+      builder.plan.stored_energies.push_back([=](const State& state) {
+        const Particles& p = state.particles;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+          typename Law::Internal internal;
+          for (std::size_t k = 0; k < fields.size(); ++k) internal[k] = state[fields[k]][i];
+          sum += p.reference_volume[i] * law.stored_beside(p.stretch[i], internal);
+        }
+        return sum;
+      });
+    }
+  };
+  std::visit(add, material);
 }
 
 template <class Splines, Motion motion>
-void join_stretch_from_positions(const Material& material, PlanBuilder& builder) {
-  const auto stretch = std::make_shared<StretchFromPositions<Splines>>(builder.state.particles);
-  std::visit(
-      [&](const auto& law) {
-        builder.add(
-            Phase::motion, "stretch from positions, stress",
-            [law, stretch](State& state) { stretch->template update<motion>(state, law); },
-            "per particle: spline matrix of the reference positions");
-      },
-      material);
+void join_stretch_from_positions(const Material& material, const StageBuilder& builder) {
+  const auto stretch =
+      builder.own("spline_of_positions", "spline matrix of the reference positions, its data",
+                  std::make_unique<StretchFromPositions<Splines>>(builder.state.particles));
+  visit_elastic(material, [&](const auto& law) {
+    builder.add(
+        {.name = "stretch from positions, stress",
+         .phase = Phase::motion,
+         .reads = {"particles.displacement"_field},
+         .writes = {"particles.position"_field, "particles.volume"_field, "particles.stretch"_field,
+                    "particles.stress"_field},
+         .run = [law, stretch](State& state) { stretch.of(state).template update<motion>(state, law); }});
+  });
+  join_memory(Phase::motion, material, builder);
 }
 
-inline void join_stress_from_stretch(Phase phase, const Material& material, PlanBuilder& builder) {
-  std::visit(
-      [&](const auto& law) {
-        builder.add(phase, "stress of the stretch", [law](State& state) {
-          Particles& p = state.particles;
-          for (std::size_t i = 0; i < p.size(); ++i) p.stress[i] = law.stress(p.stretch[i]);
-        });
-      },
-      material);
-}
-
-/// Calls `visit` with the law by which the stress grows in the motion.
-template <class Visit>
-void visit_increments(const SchemeChoices& choices, const Material& material, Visit visit) {
-  if (choices.stress_update == StressUpdate::from_stretch)
-    visit(NoStress{});
-  else
-    std::visit(visit, material);
+/// A stage that strains the particles by the grid velocity, and makes of the strain what the stress update of
+/// the scheme asks for: an increment of the stress, or the stress of the stretch, by a stage of its own. Adds
+/// `kernel` of the law, or of none.
+template <class Kernel>
+void join_straining(Phase phase, const std::string& name, const Material& material, Fields changes,
+                    Fields writes, const StageBuilder& builder, Kernel kernel) {
+  const bool from_stretch = builder.scheme.choices.stress_update == StressUpdate::from_stretch;
+  changes.push_back("particles.stretch"_field);
+  if (!from_stretch) changes.push_back("particles.stress"_field);
+  const auto add = [&](const auto& law) {
+    builder.add(
+        {.name = name,
+         .phase = phase,
+         .reads = {"basis.first"_field, "basis.values"_field, "basis.gradients"_field, "grid.velocity"_field},
+         .changes = changes,
+         .writes = writes,
+         .run = [law, kernel](State& state) { kernel(state, law); }});
+  };
+  if (!from_stretch) {
+    visit_elastic(material, add);
+    return join_memory(phase, material, builder);
+  }
+  add(NoStress{});
+  visit_elastic(material, [&](const auto& law) {
+    builder.add({.name = "stress of the stretch",
+                 .phase = phase,
+                 .reads = {"particles.stretch"_field},
+                 .writes = {"particles.stress"_field},
+                 .run = [law](State& state) {
+                   Particles& p = state.particles;
+                   for (std::size_t i = 0; i < p.size(); ++i) p.stress[i] = law.stress(p.stretch[i]);
+                 }});
+  });
+  join_memory(phase, material, builder);
 }
 
 /// Stretch and stress by the grid velocity of the particles as they are, before the forces.
 template <int P, Motion motion>
-void join_stress_first(const Material& material, PlanBuilder& builder) {
-  const SchemeChoices& choices = builder.scene.scheme.choices;
-  builder.add(Phase::end_stress, "grid velocity of the particles (USF)",
-              [project = builder.project](State& state) {
-                project(state, state.particles.velocity, state.fields.velocity);
-              });
-  visit_increments(choices, material, [&](const auto& law) {
-    builder.add(Phase::end_stress, "stretch, stress (USF)",
-                [law](State& state) { strain_by_increments<P, motion>(state, law); });
-  });
-  if (choices.stress_update == StressUpdate::from_stretch)
-    join_stress_from_stretch(Phase::end_stress, material, builder);
+void join_stress_first(const Material& material, const StageBuilder& builder,
+                       const std::shared_ptr<const Discretisation>& discretisation) {
+  Fields reads = discretisation->reads();
+  reads.push_back("particles.velocity"_field);
+  builder.add({.name = "grid velocity of the particles (USF)",
+               .phase = Phase::strain,
+               .reads = std::move(reads),
+               .writes = {"grid.velocity"_field},
+               .run = [discretisation](State& state) {
+                 discretisation->project(state, state.particles.velocity, state.fields.velocity);
+               }});
+  join_straining(Phase::strain, "stretch, stress (USF)", material, {}, {"particles.volume"_field}, builder,
+                 [](State& state, const auto& law) { strain_by_increments<P, motion>(state, law); });
 }
 
 template <int P, Motion motion>
-void join_motion(const Material& material, PlanBuilder& builder) {
-  const SchemeChoices& choices = builder.scene.scheme.choices;
-  if (choices.basis == Basis::carried_domains && motion == Motion::updated)
-    builder.add(Phase::motion, "ends of the particle domains", carry_domains);
-  if (choices.sequence == Sequence::usf) {
-    builder.add(Phase::motion, "displacement", displace<P, motion>);
-    return;
+void join_motion(const Material& material, const StageBuilder& builder, Field right_end) {
+  const SchemeChoices& choices = builder.scheme.choices;
+  const Fields reads{"basis.first"_field, "basis.values"_field, "grid.velocity"_field};
+  if (right_end && motion == Motion::updated)
+    builder.add({.name = "ends of the particle domains",
+                 .phase = Phase::motion,
+                 .reads = {"grid.velocity"_field},
+                 .changes = {"left_boundary"_field, right_end},
+                 .run = [right_end](State& state) { carry_domains(state, state[right_end]); }});
+  if (choices.stress_update == StressUpdate::from_positions) {
+    builder.add({.name = "displacement",
+                 .phase = Phase::motion,
+                 .reads = reads,
+                 .changes = {"particles.displacement"_field},
+                 .run = [](State& state) {
+                   add_at_particles<P>(state, state.drift, state.fields.velocity,
+                                       state.particles.displacement);
+                 }});
+    if (choices.quadrature == Quadrature::reconstructed_exact)
+      join_stretch_from_positions<MatchingSplines<P>, motion>(material, builder);
+    else
+      join_stretch_from_positions<numerics::CubicSplineSites, motion>(material, builder);
+  } else if (choices.sequence == Sequence::usf) {
+    builder.add({.name = "displacement",
+                 .phase = Phase::motion,
+                 .reads = reads,
+                 .changes = {"particles.displacement"_field},
+                 .writes = {"particles.position"_field},
+                 .run = displace<P, motion>});
+  } else {
+    join_straining(Phase::motion, "displacement, stretch, stress", material, {"particles.displacement"_field},
+                   {"particles.position"_field, "particles.volume"_field}, builder,
+                   [](State& state, const auto& law) { move_by_increments<P, motion>(state, law); });
   }
-  if (choices.stress_update != StressUpdate::from_positions) {
-    visit_increments(choices, material, [&](const auto& law) {
-      builder.add(Phase::motion, "displacement, stretch, stress",
-                  [law](State& state) { move_by_increments<P, motion>(state, law); });
-    });
-    if (choices.stress_update == StressUpdate::from_stretch)
-      join_stress_from_stretch(Phase::motion, material, builder);
-    return;
-  }
-  builder.add(Phase::motion, "displacement", [](State& state) {
-    add_at_particles<P>(state, state.drift, state.fields.velocity, state.particles.displacement);
-  });
-  if (choices.quadrature == Quadrature::reconstructed_exact)
-    join_stretch_from_positions<MatchingSplines<P>, motion>(material, builder);
-  else
-    join_stretch_from_positions<numerics::CubicSplineSites, motion>(material, builder);
 }
 
 }  // namespace hompm::detail

@@ -18,8 +18,7 @@ inline Domain around(double position, double length) {
 }
 
 /// The domain between the ends that the grid carries along.
-inline Domain carried(const State& state, std::size_t p) {
-  const auto& end = state.particles.right_end;
+inline Domain carried(const State& state, const std::vector<double>& end, std::size_t p) {
   return {p == 0 ? state.left_boundary : end[p - 1], end[p]};
 }
 
@@ -125,9 +124,9 @@ inline void smooth_gradients(State& state) {
   }
 }
 
-/// Evaluates a basis of four hat functions a particle, but for smoothed gradients. Throws `InvalidRun` for a
-/// particle outside the grid.
-inline void evaluate_domains(State& state, Basis basis) {
+/// Evaluates a basis of four hat functions a particle, but for smoothed gradients; `right_end` is of carried
+/// domains. Throws `InvalidRun` for a particle outside the grid.
+inline void evaluate_domains(State& state, Basis basis, Field right_end) {
   const Particles& particles = state.particles;
   double* values = state.basis.values.data();
   double* gradients = state.basis.gradients.data();
@@ -147,8 +146,8 @@ inline void evaluate_domains(State& state, Basis basis) {
     case Basis::contiguous_domains:
       return mean_around(state.basis_volumes());
     case Basis::carried_domains:
-      return for_particles([&](std::size_t p) {
-        return weigh_domain<DomainValues::ends>(state, p, carried(state, p), values, gradients);
+      return for_particles([&, &end = state[right_end]](std::size_t p) {
+        return weigh_domain<DomainValues::ends>(state, p, carried(state, end, p), values, gradients);
       });
     default:
       return for_particles([&](std::size_t p) { return hats_of_particle(state, p, values); });
@@ -156,7 +155,7 @@ inline void evaluate_domains(State& state, Basis basis) {
 }
 
 /// The ends of the domains move with the grid: x += δ v(x).
-inline void carry_domains(State& state) {
+inline void carry_domains(State& state, std::vector<double>& right_end) {
   const auto& velocity = state.fields.velocity;
   const auto move = [&](double& x) {
     const auto at = state.grid.locate(x);
@@ -165,7 +164,7 @@ inline void carry_domains(State& state) {
     x += state.drift * (n.left * velocity[cell] + n.right * velocity[cell + 1]);
   };
   move(state.left_boundary);
-  for (double& end : state.particles.right_end) move(end);
+  for (double& end : right_end) move(end);
 }
 
 }  // namespace hompm::detail

@@ -23,9 +23,8 @@ inline bool keeps_cells(Conserve conserve) {
 }
 
 /// What stages need of a reconstruction, whatever the degree of the basis and the functions it is made of.
-class Reconstruction {
+class Reconstruction : public Workspace {
  public:
-  virtual ~Reconstruction() = default;
   /// Sites and Gauss points for the present positions, and the density there where the scheme needs it.
   /// Throws `InvalidRun` for particles out of order.
   virtual void update_sites(const State& state) = 0;
@@ -37,8 +36,8 @@ class Reconstruction {
   virtual void update_consistent_mass(const State& state) = 0;
   /// M_i = Σ_g w_g ρ N_i: row sums of the consistent mass.
   virtual void row_sums(std::vector<double>& mass) = 0;
-  /// f_i = Σ_g w_g σ(x_g) dN_i/dx(x_g).
-  virtual void internal_force(State& state) = 0;
+  /// f_i = Σ_g w_g σ(x_g) dN_i/dx(x_g) of one stress per particle.
+  virtual void internal_force(const std::vector<double>& stress, std::vector<double>& force) = 0;
   /// b_i = Σ_g w_g ρ q(x_g) N_i(x_g), q reconstructed from the particle data: solving with the mass projects
   /// q. Where the scheme keeps cell momenta, ρ q is reconstructed as one field, and shifted so that Σ_g w_g ρ
   /// q is Σ m_p q_p in each cell.
@@ -54,7 +53,7 @@ class Reconstruction {
 /// stress, density and velocity of a step, and so do the weights of the particle data at the Gauss points.
 /// All memory is taken by the constructor.
 template <int P, class Sites, int PerHalf>
-class ReconstructionFrom final : public Reconstruction {
+class ReconstructionFrom final : public Cloned<Reconstruction, ReconstructionFrom<P, Sites, PerHalf>> {
  public:
   ReconstructionFrom(Sites sites, const State& state, const SchemeChoices& choices)
       : sites_(std::move(sites)),
@@ -127,9 +126,8 @@ class ReconstructionFrom final : public Reconstruction {
         [&](std::size_t g) { return mass_weight_[g]; });
   }
 
-  void internal_force(State& state) override {
-    sites_.fit(state.particles.stress, fit_);
-    auto& force = state.fields.internal_force;
+  void internal_force(const std::vector<double>& stress, std::vector<double>& force) override {
+    sites_.fit(stress, fit_);
     std::fill(force.begin(), force.end(), 0.0);
     add_integrals(
         force, [&](std::size_t g) { return gauss_.gradients(g); },

@@ -38,22 +38,29 @@ double project_lumped(State& state) {
 }
 
 template <int P>
-void join_acceleration(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
-  if (builder.scene.scheme.choices.acceleration_mass == MassForm::lumped) {
-    builder.add(Phase::acceleration, "grid acceleration, lumped mass", accelerate_lumped);
-    builder.divide_by_mass = divide_impulses;
-  } else {
-    builder.add(Phase::acceleration, "grid acceleration, consistent mass", [splines](State& state) {
+void join_acceleration(const StageBuilder& builder, Own<Reconstruction> splines) {
+  Stage stage{.name = "grid acceleration, lumped mass",
+              .phase = Phase::acceleration,
+              .reads = {"grid.force"_field, "grid.mass"_field},
+              .changes = {"balance.impulse"_field},
+              .writes = {"grid.acceleration"_field},
+              .run = accelerate_lumped};
+  if (builder.scheme.choices.acceleration_mass == MassForm::consistent) {
+    stage.name = "grid acceleration, consistent mass";
+    stage.reads[1] = splines.field;
+    stage.run = [splines](State& state) {
       state.fields.acceleration = state.fields.force;
-      state.balance.impulse += state.kick * splines->solve(state.fields.acceleration);
-    });
-    builder.divide_by_mass = [splines](const State&, std::vector<double>& field) {
-      return splines->solve(field);
+      state.balance.impulse += state.kick * splines.of(state).solve(state.fields.acceleration);
     };
   }
-  builder.add(Phase::acceleration, "particle velocity (FLIP)", [](State& state) {
-    add_at_particles<P>(state, state.kick, state.fields.acceleration, state.particles.velocity);
-  });
+  builder.add(std::move(stage));
+  builder.add({.name = "particle velocity (FLIP)",
+               .phase = Phase::acceleration,
+               .reads = {"basis.first"_field, "basis.values"_field, "grid.acceleration"_field},
+               .changes = {"particles.velocity"_field},
+               .run = [](State& state) {
+                 add_at_particles<P>(state, state.kick, state.fields.acceleration, state.particles.velocity);
+               }});
 }
 
 /// Of the impulses that hold fixed ends in the projection, the share that the particles take with the
@@ -69,114 +76,148 @@ inline double share_of_reaction(const SchemeChoices& choices) {
   }
 }
 
-/// The projection of particle data to the grid.
+/// What a scheme of splines or hat functions is: P + 1 functions reach a particle.
 template <int P>
-void join_projection(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines,
-                     const std::shared_ptr<LeastSquares<P>>& least_squares,
-                     const std::shared_ptr<AffineVelocity<P>>& affine) {
-  if (affine) {
-    builder.project = [affine](const State& state, const auto& data, auto& field) {
-      affine->sum_momentum(state, data, field);
-      return velocity_of(state, field, field);
-    };
-    return;
-  }
-  switch (builder.scene.scheme.choices.velocity_projection) {
-    case VelocityProjection::lumped:
-      builder.project = [](const State& state, const auto& data, auto& field) {
-        sum_weighted<P>(state, data, field);
-        return velocity_of(state, field, field);
-      };
-      return;
-    case VelocityProjection::consistent:
-      builder.project = [splines](const State& state, const auto& data, auto& field) {
-        splines->weighted_integrals(state, data, field);
-        splines->solve(field);
+class Discretised final : public Discretisation {
+ public:
+  Discretised(const StageBuilder& builder, Own<Reconstruction> splines, Own<LeastSquares<P>> least_squares,
+              std::shared_ptr<const AffineVelocity<P>> affine)
+      : choices_(builder.scheme.choices),
+        total_(builder.state.moves && !builder.state.basis_moves),
+        splines_(splines),
+        least_squares_(least_squares),
+        affine_(std::move(affine)) {}
+
+  double project(State& state, const std::vector<double>& particles,
+                 std::vector<double>& grid) const override {
+    switch (choices_.velocity_projection) {
+      case VelocityProjection::lumped:
+        if (affine_)
+          affine_->sum_momentum(state, particles, grid);
+        else
+          sum_weighted<P>(state, particles, grid);
+        return velocity_of(state, grid, grid);
+      case VelocityProjection::consistent:
+        splines_.of(state).weighted_integrals(state, particles, grid);
+        splines_.of(state).solve(grid);
         return 0.0;
-      };
-      return;
-    case VelocityProjection::least_squares:
-      builder.project = [least_squares](const State& state, const auto& data, auto& field) {
-        return least_squares->project(state, data, field);
-      };
+      default:
+        return least_squares_.of(state).project(state, particles, grid);
+    }
   }
-}
+  double divide_by_mass(State& state, std::vector<double>& impulses) const override {
+    return choices_.acceleration_mass == MassForm::lumped ? divide_impulses(state, impulses)
+                                                          : splines_.of(state).solve(impulses);
+  }
+  [[nodiscard]] bool keeps_momentum() const override {
+    return choices_.velocity_projection != VelocityProjection::least_squares &&
+           choices_.sequence == Sequence::musl;
+  }
+  void find_momentum(State& state) const override {
+    GridFields& g = state.fields;
+    if (needs_density(choices_))
+      splines_.of(state).momentum(g.velocity, g.momentum);
+    else if (choices_.velocity_projection == VelocityProjection::least_squares)
+      sum_momentum<P>(state);
+    else
+      for (std::size_t i = 0; i < g.mass.size(); ++i) g.momentum[i] = g.mass[i] * g.velocity[i];
+  }
+  void velocity_gradient(const State& state, std::vector<double>& gradient) const override {
+    const Gather<P> at(state, state.basis.gradients, state.fields.velocity);
+    for (std::size_t p = 0; p < gradient.size(); ++p) gradient[p] = at(p);
+    if (!total_) return;
+    for (std::size_t p = 0; p < gradient.size(); ++p) gradient[p] /= state.particles.stretch[p];
+  }
+  [[nodiscard]] Fields reads() const override {
+    Fields fields{"particles.mass"_field, "basis.first"_field, "basis.values"_field, "basis.gradients"_field,
+                  "grid.mass"_field};
+    for (const Field field : {splines_.field, least_squares_.field, affine_ ? affine_->gradient() : Field{}})
+      if (field) fields.push_back(field);
+    return fields;
+  }
+
+ private:
+  SchemeChoices choices_;
+  bool total_;  ///< gradients are ∂/∂X: ∂v/∂x = (∂v/∂X)/λ
+  Own<Reconstruction> splines_;
+  Own<LeastSquares<P>> least_squares_;
+  std::shared_ptr<const AffineVelocity<P>> affine_;
+};
+
+using SharedDiscretisation = std::shared_ptr<const Discretisation>;
 
 /// MUSL: the particles, which the forces have pushed, say how fast the grid is.
 template <int P>
-void join_velocity_of_particles(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
-  const double share = share_of_reaction(builder.scene.scheme.choices);
-  switch (builder.scene.scheme.choices.velocity_projection) {
+void join_velocity_of_particles(const StageBuilder& builder, Own<Reconstruction> splines,
+                                const SharedDiscretisation& discretisation) {
+  const double share = share_of_reaction(builder.scheme.choices);
+  Stage stage{.name = "",
+              .phase = Phase::velocity,
+              .reads = discretisation->reads(),
+              .changes = {"balance.impulse"_field},
+              .writes = {"grid.velocity"_field, "grid.momentum"_field},
+              .run = {}};
+  stage.reads.push_back("particles.velocity"_field);
+  switch (builder.scheme.choices.velocity_projection) {
     case VelocityProjection::lumped:
+      stage.name = "grid velocity, lumped mass";
+      stage.run = project_lumped<P>;
       if (share > 0.0)
-        builder.add(Phase::velocity, "grid velocity, lumped mass",
-                    [share](State& state) { state.balance.impulse += share * project_lumped<P>(state); });
-      else
-        builder.add(Phase::velocity, "grid velocity, lumped mass", project_lumped<P>);
-      return;
+        stage.run = [share](State& state) { state.balance.impulse += share * project_lumped<P>(state); };
+      break;
     case VelocityProjection::consistent:
-      builder.add(Phase::velocity, "grid velocity, consistent mass", [splines](State& state) {
+      stage.name = "grid velocity, consistent mass";
+      stage.run = [splines](State& state) {
         GridFields& g = state.fields;
-        splines->weighted_integrals(state, state.particles.velocity, g.momentum);
+        splines.of(state).weighted_integrals(state, state.particles.velocity, g.momentum);
         g.velocity = g.momentum;
-        splines->solve(g.velocity);
-      });
-      return;
+        splines.of(state).solve(g.velocity);
+      };
+      break;
     case VelocityProjection::least_squares:
-      builder.add(
-          Phase::velocity, "grid velocity, least squares", [share, project = builder.project](State& state) {
-            state.balance.impulse += share * project(state, state.particles.velocity, state.fields.velocity);
-          });
+      stage.name = "grid velocity, least squares";
+      stage.writes.pop_back();
+      stage.run = [share, discretisation](State& state) {
+        state.balance.impulse +=
+            share * discretisation->project(state, state.particles.velocity, state.fields.velocity);
+      };
   }
+  builder.add(std::move(stage));
 }
 
 /// USL and USF: v_i = P(v_p − κ Σ N_j a_j)_i + κ a_i. The velocities before the kick go to the grid, which
 /// takes the kick whole.
 template <int P>
-void join_velocity_after_kick(PlanBuilder& builder) {
-  const auto before = std::make_shared<std::vector<double>>(builder.state.particles.size());
-  builder.add(
-      Phase::velocity, "grid velocity before the kick, and the kick",
-      [before, share = share_of_reaction(builder.scene.scheme.choices),
-       project = builder.project](State& state) {
-        *before = state.particles.velocity;
-        GridFields& g = state.fields;
-        add_at_particles<P>(state, -state.kick, g.acceleration, *before);
-        state.balance.impulse += share * project(state, *before, g.velocity);
-        for (std::size_t i = 0; i < g.velocity.size(); ++i) g.velocity[i] += state.kick * g.acceleration[i];
-      },
-      "per particle: velocity before the kick");
-}
-
-/// How ∫ρ v N_i of the grid velocity is found where the projection has not summed it up.
-template <int P>
-void join_momentum(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines) {
-  const SchemeChoices& choices = builder.scene.scheme.choices;
-  const bool least_squares = choices.velocity_projection == VelocityProjection::least_squares;
-  if (!least_squares && choices.sequence == Sequence::musl) return;
-  if (needs_density(choices))
-    builder.update_momentum = [splines](State& state) {
-      splines->momentum(state.fields.velocity, state.fields.momentum);
-    };
-  else if (least_squares)
-    builder.update_momentum = sum_momentum<P>;
-  else
-    builder.update_momentum = [](State& state) {
-      GridFields& g = state.fields;
-      for (std::size_t i = 0; i < g.mass.size(); ++i) g.momentum[i] = g.mass[i] * g.velocity[i];
-    };
+void join_velocity_after_kick(const StageBuilder& builder, const SharedDiscretisation& discretisation) {
+  const Field before = builder.field({"velocity_before_kick", "m/s", "without the kick of the step"});
+  Stage stage{.name = "grid velocity before the kick, and the kick",
+              .phase = Phase::velocity,
+              .reads = discretisation->reads(),
+              .changes = {"balance.impulse"_field},
+              .writes = {before, "grid.velocity"_field},
+              .run = [=, share = share_of_reaction(builder.scheme.choices)](State& state) {
+                auto& velocity = state[before];
+                velocity = state.particles.velocity;
+                GridFields& g = state.fields;
+                add_at_particles<P>(state, -state.kick, g.acceleration, velocity);
+                state.balance.impulse += share * discretisation->project(state, velocity, g.velocity);
+                for (std::size_t i = 0; i < g.velocity.size(); ++i)
+                  g.velocity[i] += state.kick * g.acceleration[i];
+              }};
+  stage.reads.insert(stage.reads.end(), {"particles.velocity"_field, "grid.acceleration"_field});
+  builder.add(std::move(stage));
 }
 
 template <int P>
-void join_velocity(PlanBuilder& builder, const std::shared_ptr<Reconstruction>& splines,
-                   const std::shared_ptr<AffineVelocity<P>>& affine) {
+void join_velocity(const StageBuilder& builder, Own<Reconstruction> splines,
+                   const std::shared_ptr<const AffineVelocity<P>>& affine,
+                   const SharedDiscretisation& discretisation) {
   join_acceleration<P>(builder, splines);
-  if (builder.scene.scheme.choices.sequence == Sequence::musl)
-    join_velocity_of_particles<P>(builder, splines);
+  if (builder.scheme.choices.sequence == Sequence::musl)
+    join_velocity_of_particles<P>(builder, splines, discretisation);
   else
-    join_velocity_after_kick<P>(builder);
-  join_transfer<P>(builder, affine);
-  join_momentum<P>(builder, splines);
+    join_velocity_after_kick<P>(builder, discretisation);
+  join_transfer<P>(builder, affine, discretisation);
 }
 
 }  // namespace hompm::detail

@@ -3,6 +3,7 @@
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/spectral_radius.hpp>
+#include <hompm/scheme/join_scheme.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>
 #include <hompm/simulation/held_ends.hpp>
@@ -60,14 +61,12 @@ Scene ends_of(const Scene& scene) {
   return ends;
 }
 
-/// Without what holds an end where it stands: that has no part in the limit, and a wall would stand off the
-/// grid of a shorter body.
-Scene let_go(Scene scene) {
-  std::erase_if(scene.effects, [&](const EffectSpec& spec) {
-    const EffectType& type = find_effect(scene, spec);
-    return type.holds_end && !type.own_stress;
-  });
-  return scene;
+/// The state at t = 0 with the fields of the scheme, but none of effects.
+State start_state(const Scene& scene) {
+  State state = initial_state(scene);
+  Plan plan;
+  join_scheme(make_material(scene.material), {scene, scene.scheme, state, plan, ""});
+  return state;
 }
 
 }  // namespace
@@ -141,8 +140,8 @@ double limit_of_free_ends(const Scene& scene) {
   double least = or_refused("the scene cannot be started: ", [&] { return CriticalStep(scene).at(start); });
   if (!moving_free_end(scene)) return least;
 
-  const Scene few_cells = let_go(ends_of(scene));
-  const State ends = Simulation(few_cells, 1.0).state();
+  const Scene few_cells = ends_of(scene);
+  const State ends = start_state(few_cells);
   CriticalStep critical(few_cells);
   const double spacing = 1.0 / scene.scheme.particles_per_cell;
   for (const double cut : {1e-6, 0.5 * spacing + 0.02, 1.5 * spacing + 0.02})

@@ -22,8 +22,8 @@ namespace {
   }
 }
 
-/// The kinetic energy, in the pass that looks at all particles.
-double looked_at(const State& state) {
+/// Throws where a particle is not as it must be. Returns the kinetic energy, which the same pass has.
+double check_particles(const State& state) {
   const Particles& p = state.particles;
   const std::size_t count = p.size();
   const double* mass = p.mass.data();
@@ -52,7 +52,7 @@ void Guards::look(const Simulation& simulation) {
   HistoryRow row;
   for (std::size_t body = 0; body < simulation.bodies(); ++body) {
     const State& state = simulation.state(body);
-    row.kinetic += looked_at(state);
+    row.kinetic += check_particles(state);
     row.external_work += state.balance.external_work;
     row.dissipated += state.balance.dissipated;
     for (const auto& potential : simulation.plan(body).potentials) row.gravity += potential(state);
@@ -61,7 +61,7 @@ void Guards::look(const Simulation& simulation) {
 }
 
 void Guards::check(const Simulation& simulation, const HistoryRow& row) {
-  for (const State& state : simulation.states()) looked_at(state);
+  for (const State& state : simulation.states()) check_particles(state);
   compare(simulation.state(), row.kinetic + row.stored, row);
 }
 

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <hompm/effects/body_end.hpp>
 #include <hompm/simulation/held_ends.hpp>
-#include <hompm/simulation/simulation.hpp>
+#include <hompm/simulation/linear_step.hpp>
 
 namespace hompm::detail {
 namespace {
@@ -12,35 +11,6 @@ namespace {
 bool holds(const Scene& scene, const EffectSpec& spec) {
   const EffectType& type = find_effect(scene, spec);
   return type.holds_end && !type.couples();
-}
-
-/// At rest, with the stress of its own stretch.
-void hold_at_rest(const EffectSpec& spec, PlanBuilder& builder) {
-  const Side side = side_of(spec);
-  if (builder.wants_end_stress) join_own_stress(side, builder);
-  builder.add(Phase::constraint, "end at rest", [end = BodyEnd(builder, side)](State& state) mutable {
-    end.find(state);
-    end.push(state, -end.velocity() / end.compliance());
-  });
-}
-
-/// `catalogue` must outlive the scene.
-Scene trial_of(const Scene& scene, const EffectCatalogue& catalogue) {
-  Scene trial = scene;
-  trial.kinematics = Kinematics::infinitesimal;
-  trial.material.law = "linear";
-  trial.bodies.clear();
-  trial.initial_velocity.reset();
-  trial.initial_displacement.reset();
-  trial.effects.clear();
-  trial.effect_types = &catalogue;
-  for (const EffectSpec& spec : scene.effects) {
-    if (!holds(scene, spec)) continue;
-    trial.effects.push_back(spec);
-    if (find_effect(scene, spec).own_stress) continue;  // it moves, against a force
-    trial.effects.back().type = catalogue.back().name;
-  }
-  return trial;
 }
 
 void add_noise(std::vector<double>& velocity) {
@@ -59,13 +29,7 @@ bool has_held_ends(const Scene& scene) {
 
 bool stays_bounded(const Scene& scene, double time_step, int steps) {
   constexpr double most_growth = 2.0;  // of the last quarter over the first half; beats do not reach that
-  EffectCatalogue catalogue = effects_of(scene);
-  catalogue.push_back({.name = "end at rest",
-                       .meaning = "an end that is held",
-                       .parameters = {},
-                       .join = hold_at_rest,
-                       .holds_end = true});
-  Simulation simulation(trial_of(scene, catalogue), time_step);
+  Simulation simulation = linear_simulation(scene, scene.scheme, LinearEnd::held, time_step);
   const std::vector<double>& velocity = simulation.state().particles.velocity;
   add_noise(simulation.state().particles.velocity);
   double early = 0.0, late = 0.0;

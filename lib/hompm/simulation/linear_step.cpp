@@ -2,23 +2,18 @@
 #include <array>
 #include <cmath>
 
-#include <hompm/effects/body_end.hpp>
+#include <hompm/effects/registry.hpp>
+#include <hompm/scheme/join_scheme.hpp>
 #include <hompm/simulation/linear_step.hpp>
 
 namespace hompm {
 namespace {
 
-Scene linear_scene(const Scene& scene) {
-  Scene linear = scene;
-  linear.kinematics = Kinematics::infinitesimal;
-  linear.material.law = "linear";
-  detail::leave_own_stress(linear);
-  linear.bodies.clear();
-  linear.initial_velocity.reset();
-  linear.initial_displacement.reset();
-  linear.scheme.relaxation_rate = 0.0;
-  if (linear.scheme.choices.sequence == Sequence::usf) linear.scheme.choices.sequence = Sequence::musl;
-  return linear;
+/// The scheme without what has no part in the linear step: relaxation, and the order of update stress first.
+SchemeSpec without_relaxation(SchemeSpec scheme) {
+  scheme.relaxation_rate = 0.0;
+  if (scheme.choices.sequence == Sequence::usf) scheme.choices.sequence = Sequence::musl;
+  return scheme;
 }
 
 /// What a unit of the gradient of the displacement, over the configuration that the basis lives on, adds to
@@ -51,11 +46,20 @@ constexpr std::array inverse_of_one_and{0.9997, -0.98483, 0.86589, -0.53286, 0.1
 
 }  // namespace
 
+Simulation linear_simulation(const Scene& scene, const SchemeSpec& scheme, LinearEnd ends, double time_step) {
+  State state = undeformed_state(scene);
+  Plan plan;
+  const StageBuilder builder{scene, scheme, state, plan, "the critical time step"};
+  const auto grid = join_scheme(Linear{scene.material.youngs_modulus}, builder);
+  join_linear_ends(scene, ends, {builder, grid});
+  return {scene, time_step, std::move(state), std::move(plan)};
+}
+
 LinearStep::LinearStep(const Scene& scene)
     : choices_(scene.scheme.choices),
       material_(make_material(scene.material)),
       youngs_modulus_(scene.material.youngs_modulus),
-      simulation_(linear_scene(scene), 1.0),
+      simulation_(linear_simulation(scene, without_relaxation(scene.scheme), LinearEnd::let_go, 1.0)),
       stiffening_(simulation_.state().particles.size(), 1.0) {
   simulation_.state().kick = simulation_.state().drift = 1.0;  // the map is linear in both
 }
@@ -89,7 +93,8 @@ void LinearStep::take(const State& at, double left, double right) {
     p.mass[i] = stretch * at.particles.mass[i];
     p.reference_density[i] = at.basis_density(i);
   }
-  for (std::size_t i = 0; i < p.right_end.size(); ++i) p.right_end[i] = moved(at.particles.right_end[i]);
+  if (auto* ends = state.find("particles.right_end"))
+    std::ranges::transform(*at.find("particles.right_end"), ends->begin(), moved);
   state.left_boundary = left;
   state.right_boundary = right;
   std::visit(
@@ -140,9 +145,9 @@ void LinearStep::add_returns(std::vector<double>& result) {
 
 void LinearStep::run_step() {
   State& state = simulation_.state();
-  auto& gradient = state.particles.velocity_gradient;
-  std::fill(gradient.begin(), gradient.end(), 0.0);
-  for (const Phase phase : {Phase::end_stress, Phase::internal_force, Phase::acceleration, Phase::velocity})
+  if (auto* gradient = state.find("particles.velocity_gradient")) std::ranges::fill(*gradient, 0.0);
+  for (const Phase phase :
+       {Phase::total_stress, Phase::end_stress, Phase::internal_force, Phase::acceleration, Phase::velocity})
     simulation_.plan().run(phase, state);
   strain();
 }

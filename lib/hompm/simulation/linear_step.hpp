@@ -3,10 +3,15 @@
 
 #include <vector>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/simulation/simulation.hpp>
 
 namespace hompm {
+
+/// A body of the scene, undeformed and at rest, of small strain and law linear; with no effect but what the
+/// effects that hold its ends say of these (`EffectType::join_linear`). Throws as `Simulation`.
+Simulation linear_simulation(const Scene& scene, const SchemeSpec& scheme, LinearEnd ends, double time_step);
 
 /// With positions frozen, a step is a linear map of the particles' velocity and stress: the stress makes the
 /// force, the force changes velocities, these go to the grid, whose velocity strains the particles. One turn

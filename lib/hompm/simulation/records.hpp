@@ -2,9 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace hompm {
+
+/// A declared field that is reported; 0 for the particles of a body that has none of the name.
+struct ReportedField {
+  std::string name, unit;
+  std::vector<double> values;
+};
 
 /// All particle fields at one time. All vectors have one entry per particle, ordered by body and reference
 /// position.
@@ -18,6 +25,7 @@ struct Snapshot {
   std::vector<double> density;             ///< kg/m³
   std::vector<double> stress;              ///< Cauchy stress, tension positive, Pa
   std::vector<double> stretch;             ///< λ = ∂x/∂X
+  std::vector<ReportedField> reported;     ///< what effects and laws add, in the order of the bodies
   std::vector<std::int64_t> body;          ///< which body it belongs to, from 0; empty where there is one
 
   [[nodiscard]] std::size_t size() const { return position.size(); }

@@ -119,12 +119,17 @@ std::string help_for_steep_front(const Scene& scene) {
 
 /// What is not a finite number in an output: "density of particle 3"; "" where all is.
 std::string not_finite(const Snapshot& snapshot, const HistoryRow& row) {
-  for (const auto& column : detail::all_columns) {
-    const auto& values = snapshot.*column.values;
+  const auto first_bad = [](std::string_view name, const std::vector<double>& values) -> std::string {
     const auto bad = std::ranges::find_if_not(values, [](double value) { return std::isfinite(value); });
-    if (bad != values.end())
-      return std::string(column.name) + " of particle " + std::to_string(bad - values.begin());
-  }
+    return bad == values.end() ? ""
+                               : std::string(name) + " of particle " + std::to_string(bad - values.begin());
+  };
+  std::string bad;
+  for (const auto& column : detail::all_columns)
+    if (bad.empty()) bad = first_bad(column.name, snapshot.*column.values);
+  for (const ReportedField& field : snapshot.reported)
+    if (bad.empty()) bad = first_bad(field.name, field.values);
+  if (!bad.empty()) return bad;
   for (const auto& column : detail::history_columns)
     if (!std::isfinite(row.*column.value)) return std::string(column.name) + " in the balances";
   return "";
@@ -187,7 +192,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
 
   try {
     for (std::int64_t step = simulation.state().step + 1; step <= stepping.steps && !result.at_rest; ++step) {
-      simulation.step();
+      simulation.step(stepping.time_step);
       result.steps = step;
       step_watch.look(simulation.states(), result);
       guards.look(simulation);

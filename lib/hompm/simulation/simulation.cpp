@@ -12,15 +12,16 @@
 namespace hompm {
 namespace {
 
-constexpr std::array phases_after_geometry{Phase::end_stress,    Phase::internal_force, Phase::external_force,
-                                           Phase::damping_force, Phase::acceleration,   Phase::velocity,
-                                           Phase::transfer,      Phase::constraint,     Phase::work,
-                                           Phase::motion};
-constexpr auto force_phases = std::span(phases_after_geometry).first<5>();
-constexpr auto projection_phases = std::span(phases_after_geometry).subspan<5, 3>();
-constexpr std::array start_phases{Phase::geometry, Phase::end_stress, Phase::internal_force, Phase::velocity};
+constexpr std::array phases_after_geometry{Phase::strain,         Phase::total_stress,   Phase::end_stress,
+                                           Phase::internal_force, Phase::external_force, Phase::damping_force,
+                                           Phase::acceleration,   Phase::velocity,       Phase::transfer,
+                                           Phase::constraint,     Phase::work,           Phase::motion};
+constexpr auto force_phases = std::span(phases_after_geometry).first<7>();
+constexpr auto projection_phases = std::span(phases_after_geometry).subspan<7, 3>();
+constexpr std::array start_phases{Phase::geometry,   Phase::strain,         Phase::total_stress,
+                                  Phase::end_stress, Phase::internal_force, Phase::velocity};
 
-void check_particle_count(const SchemeSpec& scheme) {
+void check_data_sites(const SchemeSpec& scheme) {
   const SchemeChoices& c = scheme.choices;
   if (c.quadrature == Quadrature::particles && c.stress_update != StressUpdate::from_positions) return;
   const int particles = scheme.cells * scheme.particles_per_cell;
@@ -43,54 +44,72 @@ std::string called_by(const Scene& scene) {
   return "scheme " + scene.scheme.name + " (" + where + ")";
 }
 
-void join_effects(const Scene& scene, PlanBuilder& builder) {
+using Discretisations = std::vector<std::shared_ptr<const Discretisation>>;
+
+/// Those that hold an end last.
+void join_effects(const Scene& scene, State& state, Plan& plan,
+                  const std::shared_ptr<const Discretisation>& grid) {
   for (const bool holding : {false, true})
-    for (const EffectSpec& spec : scene.effects) {
-      const EffectType& type = find_effect(scene, spec);
-      if (type.couples() || type.holds_end != holding) continue;
-      builder.called_by = called_by(spec);
-      type.join(spec, builder);
-    }
+    for (const EffectSpec& spec : scene.effects)
+      if (const EffectType& type = find_effect(scene, spec); !type.couples() && type.holds_end == holding)
+        type.join(spec, {{scene, scene.scheme, state, plan, called_by(spec)}, grid});
 }
 
-std::vector<Coupling> join_pairs(const Scene& scene, std::vector<PlanBuilder>& builders) {
+std::vector<Coupling> join_pairs(const Scene& scene, const Discretisations& grids, std::vector<State>& states,
+                                 std::vector<Plan>& plans) {
+  const auto bodies = bodies_of(scene);
   std::vector<Coupling> couplings;
   for (const EffectSpec& spec : scene.effects) {
     const EffectType& type = find_effect(scene, spec);
     if (!type.couples()) continue;
-    for (std::size_t k = 0; k + 1 < builders.size(); ++k) {
+    const auto builder = [&](std::size_t k) {
+      return PlanBuilder{{*bodies[k], bodies[k]->scheme, states[k], plans[k], called_by(spec)}, grids[k]};
+    };
+    for (std::size_t k = 0; k + 1 < bodies.size(); ++k) {
       if (spec.body && static_cast<std::size_t>(*spec.body) != k) continue;
-      builders[k].called_by = builders[k + 1].called_by = called_by(spec);
-      type.join_pair(spec, {builders[k], builders[k + 1], k, couplings, called_by(spec)});
+      type.join_pair(spec, {builder(k), builder(k + 1), k, couplings});
     }
   }
   return couplings;
 }
 
-}  // namespace
-
-std::vector<State> start_states(const Scene& scene) {
-  std::vector<State> states;
-  for (const Scene* body : bodies_of(scene)) {
-    states.push_back(initial_state(*body));
-    prepare_effects(*body, states.back());
-  }
-  return states;
+Plan plan_of_scheme(const Scene& scene, const Material& material, State& state, Discretisations& grids) {
+  Plan plan;
+  const StageBuilder builder{scene, scene.scheme, state, plan, called_by(scene)};
+  if (std::ranges::any_of(scene.effects,
+                          [&](const auto& spec) { return find_effect(scene, spec).adds_stress; }))
+    builder.add_total_stress();
+  grids.push_back(join_scheme(material, builder));
+  return plan;
 }
 
+}  // namespace
+
 Simulation::Simulation(const Scene& scene, double time_step)
-    : splitting_(splitting(scene.scheme.choices.time_integrator)), states_(start_states(scene)) {
-  std::vector<PlanBuilder> builders;
-  for (const Scene* body : bodies_of(scene)) {
-    check_particle_count(body->scheme);
+    : splitting_(splitting(scene.scheme.choices.time_integrator)) {
+  const auto bodies = bodies_of(scene);
+  Discretisations grids;
+  for (const Scene* body : bodies) {
+    states_.push_back(initial_state(*body));
+    prepare_effects(*body, states_.back());
+    check_data_sites(body->scheme);
     materials_.push_back(make_material(body->material));
-    builders.push_back({.scene = *body, .state = states_[builders.size()]});
-    builders.back().called_by = called_by(scene);
-    join_scheme(materials_.back(), builders.back());
-    join_effects(*body, builders.back());
+    plans_.push_back(plan_of_scheme(*body, materials_.back(), states_.back(), grids));
   }
-  couplings_ = join_pairs(scene, builders);
-  for (PlanBuilder& builder : builders) plans_.push_back(std::move(builder.plan));
+  for (std::size_t k = 0; k < bodies.size(); ++k) join_effects(*bodies[k], states_[k], plans_[k], grids[k]);
+  couplings_ = join_pairs(scene, grids, states_, plans_);
+  start(scene, time_step);
+}
+
+Simulation::Simulation(const Scene& scene, double time_step, State state, Plan plan)
+    : splitting_(splitting(scene.scheme.choices.time_integrator)), materials_{make_material(scene.material)} {
+  states_.push_back(std::move(state));
+  plans_.push_back(std::move(plan));
+  start(scene, time_step);
+}
+
+void Simulation::start(const Scene& scene, double time_step) {
+  for (std::size_t k = 0; k < plans_.size(); ++k) check_plan(plans_[k], states_[k], couplings_, k);
   for (State& state : states_) state.time_step = time_step;
   try {
     run(start_phases, states_);
@@ -106,7 +125,9 @@ Simulation::Simulation(const Scene& scene, double time_step)
 }
 
 double Simulation::closing_kick() const {
-  return splitting_.kicks.size() > splitting_.drifts.size() ? splitting_.kicks.back() : 0.0;
+  const State& state = states_.front();
+  const bool closes = splitting_.kicks.size() > splitting_.drifts.size();
+  return closes && state.step > 0 ? splitting_.kicks.back() * state.time_step : 0.0;
 }
 
 void Simulation::run(std::span<const Phase> phases, std::vector<State>& states) const {
@@ -130,32 +151,47 @@ void Simulation::run_geometry(std::vector<State>& states) const {
   }
 }
 
-void Simulation::step() {
-  const std::int64_t step = states_.front().step + 1;
-  const double time_step = states_.front().time_step;
-  const double start = static_cast<double>(step - 1) * time_step;
-  double left_from_last_step = step == 1 ? 0.0 : closing_kick();
+namespace {
+
+/// time + length, with what rounding takes off kept: after n steps of one length, n · length rounded once.
+void advance(State& state, double length) {
+  const double sum = state.time + length;
+  const double part = sum - state.time;
+  const double rest = state.time_rest + ((state.time - (sum - part)) + (length - part));
+  state.time = sum + rest;
+  state.time_rest = rest - (state.time - sum);
+}
+
+}  // namespace
+
+void Simulation::step(double length) {
+  double left = closing_kick();
+  const double start = states_.front().time;
+  for (State& state : states_) {
+    ++state.step;
+    state.time_step = length;
+    advance(state, length);
+  }
   double drifted = 0.0;
   for (std::size_t part = 0; part < splitting_.drifts.size(); ++part) {
     for (State& state : states_) {
-      state.step = step;
-      state.time = static_cast<double>(step) * time_step;
-      state.kick = (left_from_last_step + splitting_.kicks[part]) * time_step;
-      state.drift = splitting_.drifts[part] * time_step;
-      state.position_time = start + drifted * time_step;
+      state.kick = left + splitting_.kicks[part] * length;
+      state.drift = splitting_.drifts[part] * length;
+      state.position_time = start + drifted * length;
     }
-    left_from_last_step = 0.0;
+    left = 0.0;
     drifted += splitting_.drifts[part];
-    if (step > 1 || part > 0) run_geometry(states_);
+    if (states_.front().step > 1 || part > 0) run_geometry(states_);
     run(phases_after_geometry, states_);
   }
 }
 
-std::vector<State> Simulation::synchronised() const {
+std::vector<State> Simulation::after_closing_kick() const {
   std::vector<State> states = states_;
-  if (closing_kick() == 0.0 || states.front().step == 0) return states;
+  const double kick = closing_kick();
+  if (kick == 0.0) return states;
   for (State& state : states) {
-    state.kick = closing_kick() * state.time_step;
+    state.kick = kick;
     state.drift = 0.0;
     state.position_time = state.time;
   }
@@ -167,12 +203,27 @@ std::vector<State> Simulation::synchronised() const {
   return states;
 }
 
+namespace {
+
+/// Where a snapshot has the values of the field; 0 for the `before` particles of other bodies.
+std::vector<double>& reported_as(const DeclaredField& field, std::size_t before, Snapshot& snapshot) {
+  const std::string name = field.name.substr(field.name.find('.') + 1);
+  auto found = std::ranges::find(snapshot.reported, name, &ReportedField::name);
+  if (found == snapshot.reported.end())
+    found = snapshot.reported.insert(found, {name, field.unit, std::vector<double>(before)});
+  return found->values;
+}
+
+}  // namespace
+
 Snapshot Simulation::snapshot(double time) const {
-  const std::vector<State> states = synchronised();
+  std::vector<State> states = after_closing_kick();
   Snapshot s;
   s.time = time;
   for (std::size_t body = 0; body < states.size(); ++body) {
-    const State& state = states[body];
+    State& state = states[body];
+    plans_[body].run(Phase::total_stress, state);
+    const std::size_t before = s.size();
     const Particles& p = state.particles;
     const auto report = [&](const std::vector<double>& field, std::vector<double>& reported) {
       const auto skip = static_cast<std::ptrdiff_t>(p.markers);
@@ -182,14 +233,15 @@ Snapshot Simulation::snapshot(double time) const {
     report(p.displacement, s.displacement);
     report(p.velocity, s.velocity);
     report(p.volume, s.volume);
-    std::vector<double> stress = p.stress;
-    for (const auto& add : plans_[body].extra_stresses) add(state, stress);
-    report(stress, s.stress);
+    report(state[plans_[body].total_stress], s.stress);
     report(p.stretch, s.stretch);
     for (std::size_t i = p.markers; i < p.size() - p.markers; ++i) {
       s.position.push_back(p.reference_position[i] + p.displacement[i]);
       s.density.push_back(state.density(i));
     }
+    for (const DeclaredField& field : state.declared)
+      if (field.reported) report(field.values, reported_as(field, before, s));
+    for (ReportedField& field : s.reported) field.values.resize(s.size());
     if (states.size() > 1) s.body.resize(s.size(), static_cast<std::int64_t>(body));
   }
   return s;
@@ -210,7 +262,7 @@ double Simulation::total_energy(const HistoryRow& row) const {
 }
 
 HistoryRow Simulation::history(double time) const {
-  const std::vector<State> states = synchronised();
+  const std::vector<State> states = after_closing_kick();
   HistoryRow row{.time = time};
   double sum = 0.0;
   double magnitude = 0.0;

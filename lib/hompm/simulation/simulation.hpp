@@ -8,19 +8,21 @@
 
 namespace hompm {
 
-/// The states of all bodies at t = 0, with what effects add and change.
-std::vector<State> start_states(const Scene& scene);
-
 /// Each body of a scene has a state and a plan, and its own grid: bodies never mix in one velocity field.
 /// They take the phases of a step together, and what they do to each other stands between.
 class Simulation {
  public:
-  /// State and plan at t = 0, with steps of `time_step` (s). Throws `SceneError` when scene and scheme do not
-  /// go together.
+  /// State and plan at t = 0; `time_step` (s) is the length of the first step, where `step` is not told one.
+  /// Throws `SceneError` when scene and scheme do not go together, and `Error` for a plan that cannot be run
+  /// (`check_plan`).
   Simulation(const Scene& scene, double time_step);
+  /// Of one body, with a state and a plan that were made otherwise.
+  Simulation(const Scene& scene, double time_step, State state, Plan plan);
 
-  /// One time step. Throws `InvalidRun` when it cannot be carried out; the state is then of no use.
-  void step();
+  /// One time step of the length (s), its first kick that which the last step has left to it and its own.
+  /// Throws `InvalidRun` when it cannot be carried out; the state is then of no use.
+  void step(double length);
+  void step() { step(states_.front().time_step); }  ///< as long as the last one
 
   [[nodiscard]] std::size_t bodies() const { return states_.size(); }
   [[nodiscard]] const State& state(std::size_t body = 0) const { return states_[body]; }
@@ -33,6 +35,9 @@ class Simulation {
   [[nodiscard]] const std::vector<State>& states() const { return states_; }
   [[nodiscard]] const std::vector<Coupling>& couplings() const { return couplings_; }
 
+  /// Whether their states are the same, bit for bit.
+  [[nodiscard]] bool operator==(const Simulation& other) const { return states_ == other.states_; }
+
   /// Particle fields and balances now, with time stamp `time` (s).
   [[nodiscard]] Snapshot snapshot(double time) const;
   [[nodiscard]] HistoryRow history(double time) const;
@@ -41,11 +46,12 @@ class Simulation {
   [[nodiscard]] double next_meeting() const;
 
  private:
+  void start(const Scene& scene, double time_step);
   [[nodiscard]] double total_energy(const HistoryRow& row) const;
-  /// The kick that a step leaves to the next, as part of the step: ½ in leapfrog.
+  /// The kick that the last step has left to the next (s): half a step in leapfrog.
   [[nodiscard]] double closing_kick() const;
-  /// The states with that kick done: velocities and momentum at the time of the positions.
-  [[nodiscard]] std::vector<State> synchronised() const;
+  /// The states with that kick done, and nothing moved: velocities and momentum at the time of the positions.
+  [[nodiscard]] std::vector<State> after_closing_kick() const;
   /// The stages of each phase, body by body, then what couples them.
   void run(std::span<const Phase> phases, std::vector<State>& states) const;
   void run_geometry(std::vector<State>& states) const;

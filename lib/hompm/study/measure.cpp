@@ -2,7 +2,7 @@
 #include <chrono>
 
 #include <hompm/error.hpp>
-#include <hompm/plan/state_fields.hpp>
+#include <hompm/plan/fields.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/run.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 std::int64_t bytes_of(const State& state) {
   std::size_t bytes = 0;
-  visit_fields(state, [&](std::string_view, Site, auto values) { bytes += values.size_bytes(); });
+  visit_fields(state, [&](const FieldInfo&, auto values) { bytes += values.size_bytes(); });
   return static_cast<std::int64_t>(bytes);
 }
 

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include <hompm/error.hpp>
 #include <hompm/simulation/columns.hpp>
@@ -38,6 +39,29 @@ const std::array<ResultsFile, 3>& tables() {
       ResultsFile{"stress.csv", true, names(detail::stress_columns)},
       ResultsFile{"history.csv", false, names(detail::history_columns)}};
   return all;
+}
+
+/// The columns of a file that are fields, beyond the usual ones.
+std::vector<std::string> further_columns(const fs::path& path, const ResultsFile& table) {
+  detail::LineReader reader(path);
+  std::vector<std::string> further, known = table.fields;
+  if (!table.has_particles || !reader.next()) return further;
+  known.insert(known.end(), {"time", "particle", "body"});
+  std::istringstream header{std::string(reader.line())};
+  for (std::string name; std::getline(header, name, ',');) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    further.push_back(name);
+    known.push_back(name);
+  }
+  return further;
+}
+
+/// The table with the fields that effects and laws report in both files.
+ResultsFile with_reported(ResultsFile table, const fs::path& a, const fs::path& b) {
+  const auto others = further_columns(b, table);
+  for (const std::string& name : further_columns(a, table))
+    if (std::find(others.begin(), others.end(), name) != others.end()) table.fields.push_back(name);
+  return table;
 }
 
 /// Throws `FileError` when the answer cannot be had.
@@ -117,9 +141,9 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
   detail::MessageLog notes;
   std::optional<Difference> first;  // of all, within a tolerance or not
   bool any_file = false;
-  for (const auto& table : tables()) {
-    const fs::path file_a = a / table.name;
-    const fs::path file_b = b / table.name;
+  for (const auto& usual : tables()) {
+    const fs::path file_a = a / usual.name;
+    const fs::path file_b = b / usual.name;
     const bool in_a = is_there(file_a);
     const bool in_b = is_there(file_b);
     any_file = any_file || in_a || in_b;
@@ -128,6 +152,7 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
       faults.add(missing.string(), "missing files", 0, "missing, but there is " + there.string());
     }
     if (!in_a || !in_b) continue;
+    const ResultsFile table = with_reported(usual, file_a, file_b);
     const detail::TableLayout layout{.fields = table.fields, .with_particles = table.has_particles};
     detail::Table table_a(file_a, layout, faults, notes);
     detail::Table table_b(file_b, layout, faults, notes);

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <utility>
 
+#include <hompm/effects/registry.hpp>
+#include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
 #include <hompm/verify/foreign_comparison.hpp>
 #include <hompm/verify/foreign_hints.hpp>
@@ -118,10 +120,9 @@ std::vector<double> judged_times(const std::vector<double>& all, const ForeignOp
 /// the law alone.
 bool is_told(const ParticleFields& mine, const std::string& field, const std::optional<Scene>& scene) {
   std::vector<std::string> strains{"volume", "density", "stretch"};
-  const auto adds_stress = [](const EffectSpec& effect) {
-    return effect.type == "viscosity" || effect.type == "bulk_viscosity" || effect.type == "plasticity";
-  };
-  if (scene && std::ranges::none_of(scene->effects, adds_stress)) strains.emplace_back("stress");
+  const auto adds_stress = [&](const EffectSpec& spec) { return find_effect(*scene, spec).adds_stress; };
+  if (scene && !has_memory(scene->material) && std::ranges::none_of(scene->effects, adds_stress))
+    strains.emplace_back("stress");
   for (const auto& group : {std::vector<std::string>{"x", "displacement"}, strains}) {
     if (std::ranges::find(group, field) == group.end()) continue;
     return std::ranges::any_of(group, [&](const auto& other) { return mine.has(other); });

@@ -39,7 +39,7 @@ void run_golden(const fs::path& golden, const fs::path& output) {
 void run_scene_file(const fs::path& path, const fs::path& output) {
   const hompm::Scene scene = hompm::load_scene(path, {});
   const hompm::TimeStepping stepping = hompm::time_stepping(scene);
-  hompm::RunFolder folder(output / path.stem(), true, !scene.bodies.empty());
+  hompm::RunFolder folder(output / path.stem(), true);
   hompm::Trace trace(folder.path() / "trace");
   hompm::Checkpoint kept = hompm::first_checkpoint(scene);
   std::string checkpoint;
