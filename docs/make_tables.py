@@ -537,7 +537,7 @@ PARTS = {
     "scheme-row": source("lib/hompm/scheme/scheme_table.cpp", "cpp", "      {.name = \"ugimp\"", "       .choices = {.basis = Basis::contiguous_domains}},"),
     "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "law-type": source("lib/hompm/materials/material.hpp", "cpp", "/// σ = E (λ − 1 − ε_p), of small strain", "};"),
-    "law-place": source("lib/hompm/materials/material.hpp", "cpp", "using Material = ", "using Material = "),
+    "law-place": source("lib/hompm/materials/material.hpp", "cpp", "using Material = ", "using Material = std::variant<Linear, Rate, Hencky, NeoHookean, Elastoplastic>;"),
     "law-row": source("lib/hompm/materials/material.cpp", "cpp", "      {.name = \"elastoplastic\"", "       .conflict = conflict_of_elastoplastic},"),
     "law-test": source("tests/verification/plasticity_test.cpp", "cpp", "TEST_CASE(\"yielding follows the kinematic", "}"),
     "outside-cmake": source("tests/package/CMakeLists.txt", "cmake"),

@@ -156,7 +156,7 @@ TEST_CASE("the stages of a step are told as JSON") {
         position = text.find_first_not_of(' ', position);
         const std::string name = stage["name"];
         CHECK(text.compare(position, name.size(), name) == 0);
-        CHECK_FALSE(stage["writes"].empty() && stage["changes"].empty());
+        CHECK_FALSE((stage["writes"].empty() && stage["changes"].empty()));
         CHECK_THAT(text, contains(stage["for"].get<std::string>().substr(0, 60)));
       }
     }

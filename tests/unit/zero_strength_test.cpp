@@ -3,6 +3,7 @@
 #include <string>
 
 #include <hompm/effects/registry.hpp>
+#include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/simulation.hpp>
 
@@ -13,11 +14,11 @@ namespace {
 
 std::string text(const std::string& scheme, const std::string& effect) {
   const bool manufactured = effect.find("manufactured") != effect.npos;
-  return R"(
+  return std::string(R"(
 end_time = 1
 body.length = 1
 material = { law = "hencky", density = 1000, youngs_modulus = 1e5 }
-)" +
+)") +
          (manufactured
               ? ""
               : "ends.right = \"free\"\ninitial.velocity = { shape = \"sine\", amplitude = 0.3 }\n") +

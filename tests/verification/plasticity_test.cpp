@@ -101,11 +101,13 @@ TEST_CASE("yielding follows the kinematic hardening to the rounding of a return"
     simulation.plan()[hompm::Phase::motion].back().run(simulation.state());
     return particles.stress[5];
   };
-  const auto near = [](double stress, double expected) { return std::abs(stress - expected) < 1e-11; };
-  CHECK(strained(0.5e-3) == 50.0);
-  CHECK(near(strained(2e-3), 125.0));    // 100 + E_t 1e-3
-  CHECK(near(strained(1e-3), 25.0));     // unloads elastically
-  CHECK(near(strained(2e-3), 125.0));    // and loads again
-  CHECK(near(strained(0.0), -75.0));     // the elastic range has kept its width of 200
-  CHECK(near(strained(-2e-3), -125.0));  // yields the other way, on the line through −100 at −1e-3
+  // With strains in powers of two only the returns round.
+  const auto near = [](double stress, double expected) { return std::abs(stress - expected) < 1e-12; };
+  constexpr double e = 0x1p-10;  // E e = 97.65625, just below the yield stress
+  CHECK(strained(0.5 * e) == 48.828125);
+  CHECK(near(strained(2.0 * e), 123.828125));    // 100 + E_t (2 e − 1e-3)
+  CHECK(near(strained(e), 26.171875));           // unloads elastically
+  CHECK(near(strained(2.0 * e), 123.828125));    // and loads again
+  CHECK(near(strained(0.0), -71.484375));        // the elastic range has kept its width of 200
+  CHECK(near(strained(-2.0 * e), -123.828125));  // yields the other way, on the line through −100 at −1e-3
 }
