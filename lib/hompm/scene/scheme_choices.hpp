@@ -52,6 +52,17 @@ enum class Sequence {
   usl,   ///< forces, grid velocities, stress: update stress last
   usf,   ///< stress, of the velocities at the start of the step, forces, grid velocities
 };
+/// By which grid velocity particles move in MUSL; the one after the projection strains them.
+enum class PositionUpdate {
+  after_projection,   ///< that of the updated particle velocities, as it strains them (Tielen et al. 2017)
+  before_projection,  ///< that of the grid's own update (de Vaucorbeil, Nguyen, Sinaie, Wu, Adv. Appl. Mech.
+                      ///< 53 (2020) 185–398)
+};
+/// What essential boundary conditions do to a system with a consistent matrix.
+enum class EssentialConditions {
+  in_system,       ///< fixed functions are no unknowns
+  after_solution,  ///< the system is solved for all functions, fixed ones are set to zero afterwards
+};
 /// What particles take back from the grid.
 enum class Transfer {
   flip,  ///< the change of velocity, or that mixed with the velocity
@@ -91,6 +102,7 @@ struct SchemeChoices {
   MassForm acceleration_mass = MassForm::lumped;
   VelocityProjection velocity_projection = VelocityProjection::lumped;
   Sequence sequence = Sequence::musl;
+  PositionUpdate position_update = PositionUpdate::after_projection;
   Transfer transfer = Transfer::flip;
   double flip_fraction = 1.0;  ///< of the change of velocity; the rest is the velocity itself
   int xpic_order = 2;          ///< m of XPIC(m); 1 is PIC
@@ -99,6 +111,7 @@ struct SchemeChoices {
   FreeEnd free_end = FreeEnd::particles;
   bool markers = false;  ///< massless particles mark the ends of the body
   Conserve conserve = Conserve::nothing;
+  EssentialConditions essential_conditions = EssentialConditions::in_system;
 };
 
 }  // namespace hompm

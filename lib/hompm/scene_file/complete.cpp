@@ -195,6 +195,8 @@ void check_choices(Reading& reading) {
       c.quadrature != Quadrature::mixed || reading.scene.scheme.degree == 1, "quadrature",
       "= \"mixed\" needs `scheme.degree` = 1: one stress a cell leaves motions of higher degree without "
       "stiffness");
+  demand_that(c.position_update == PositionUpdate::after_projection || c.sequence == Sequence::musl,
+              "position_update", "= \"before-projection\" is of `scheme.sequence` \"musl\"");
   demand_that(c.conserve != Conserve::momentum || c.acceleration_mass == MassForm::consistent, "conserve",
               "= \"momentum\" corrects the consistent mass: `scheme.acceleration_mass` must be "
               "\"consistent\"; lumped mass conserves momentum as it is");

@@ -218,6 +218,11 @@ std::vector<KeyRow> make_key_table() {
       {"scheme.sequence", word({"musl", "usl", "usf"}), of_scheme, own, "",
        "stress after the updated particle velocities went to the grid, after the forces, before them",
        [](Scene& scene) -> Slot { return &scene.scheme.choices.sequence; }},
+      {"scheme.position_update", word({"after-projection", "before-projection"}), seldom,
+       "\"after-projection\"", "before-projection with the sequence musl",
+       "the grid velocity that moves particles: that of their updated velocities, or of the grid's own "
+       "update",
+       [](Scene& scene) -> Slot { return &scene.scheme.choices.position_update; }},
       {"scheme.transfer", word({"flip", "pic", "apic", "xpic"}), of_scheme, own, "",
        "what particles take back from the grid: the change of velocity, the velocity, that and its gradient, "
        "the change less what the grid does not see",
@@ -247,6 +252,9 @@ std::vector<KeyRow> make_key_table() {
       {"scheme.conserve", word({"nothing", "cell-mass", "momentum", "cell-momentum"}), of_scheme, own, "",
        "what the reconstructed density keeps exactly, and with cell-momentum the momentum",
        [](Scene& scene) -> Slot { return &scene.scheme.choices.conserve; }},
+      {"scheme.essential_conditions", word({"in-system", "after-solution"}), seldom, "\"in-system\"", "",
+       "fixed functions are left out of a system with a consistent matrix, or set to zero after its solution",
+       [](Scene& scene) -> Slot { return &scene.scheme.choices.essential_conditions; }},
       {"scheme.relaxation_rate",
        {.type = ValueType::number, .unit = "1/s", .minimum = 0.0},
        of_scheme,

@@ -15,13 +15,15 @@
 namespace hompm::detail {
 
 /// The member of a Scene that holds the value of a key.
-using Slot = std::variant<double*, int*, bool*, std::string*, std::optional<double>*, End*, Kinematics*,
-                          Basis*, Formulation*, Quadrature*, MassForm*, VelocityProjection*, Sequence*,
-                          Transfer*, StressUpdate*, TimeIntegrator*, FreeEnd*, Conserve*>;
+using Slot =
+    std::variant<double*, int*, bool*, std::string*, std::optional<double>*, End*, Kinematics*, Basis*,
+                 Formulation*, Quadrature*, MassForm*, VelocityProjection*, Sequence*, Transfer*,
+                 PositionUpdate*, StressUpdate*, TimeIntegrator*, FreeEnd*, Conserve*, EssentialConditions*>;
 
 enum class Absent {
   missing,    ///< an error
   standard,   ///< the default is `KeyRow::standard`, TOML text
+  seldom,     ///< the same, and the default is not written
   of_scheme,  ///< follows from the row of the table of schemes; with another scheme said on the command line
               ///< the file's is kept only where it suits that
   derived,    ///< follows from other keys; `KeyRow::standard` says how, and `complete` in reading.hpp does it

@@ -47,7 +47,7 @@ void read_keys(Reading& reading) {
     if (reading.said.find(row.path) != nullptr) {
       const auto value = reading.take(row.path, '`' + row.path + '`', row.rule);
       if (value) store(row, *value, reading.scene);
-    } else if (row.absent == Absent::standard) {
+    } else if (row.absent == Absent::standard || row.absent == Absent::seldom) {
       store(row, accepted(row.rule, parse_value(row.standard)).value(), reading.scene);
     } else if (row.absent == Absent::missing && !reading.meant.contains(row.path) &&
                !reading.meant.contains(table)) {

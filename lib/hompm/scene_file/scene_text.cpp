@@ -57,7 +57,7 @@ std::string scene_text(const Scene& scene) {
     const auto* optional = detail::find_optional_table(parent);
     if (optional != nullptr && !optional->present(scene)) continue;
     const std::string value = detail::load_text(row, copy);
-    if (value.empty()) continue;
+    if (value.empty() || (row.absent == detail::Absent::seldom && value == row.standard)) continue;
     if (parent != table) {
       if (table == "ends") {
         for (const EffectSpec& effect : scene.effects) text += effect_text(scene, effect);

@@ -9,6 +9,7 @@
 
 #include <hompm/numerics/band_ldlt.hpp>
 #include <hompm/plan/invalid.hpp>
+#include <hompm/scene/scheme_choices.hpp>
 
 namespace hompm::detail {
 
@@ -22,8 +23,10 @@ namespace hompm::detail {
 template <int P>
 class ConsistentMass {
  public:
-  ConsistentMass(const State& state, bool extended)
-      : matrix_(static_cast<std::size_t>(state.grid.functions())), extended_(extended) {
+  ConsistentMass(const State& state, const SchemeChoices& choices)
+      : matrix_(static_cast<std::size_t>(state.grid.functions())),
+        extended_(choices.free_end == FreeEnd::extension),
+        fixed_afterwards_(choices.essential_conditions == EssentialConditions::after_solution) {
     double binomial = 1.0;
     for (int k = 1; k <= P + 1; ++k) {
       binomial = binomial * (P + 2 - k) / k;
@@ -56,8 +59,8 @@ class ConsistentMass {
     if (tied_left_) tie(begin, +1);
     if (tied_right_) tie(end - 1, -1);
     if (!diagonal.empty()) add_diagonal(diagonal);
-    if (fixed_left_ || tied_left_) ++begin_;
-    if (fixed_right_ || tied_right_) --end_;
+    if ((fixed_left_ && !fixed_afterwards_) || tied_left_) ++begin_;
+    if ((fixed_right_ && !fixed_afterwards_) || tied_right_) --end_;
     if (const std::size_t row = matrix_.factorise(begin_, end_); row != end_) throw_singular_mass(state, row);
   }
 
@@ -75,6 +78,11 @@ class ConsistentMass {
     if (tied_right_) x[touched_end_ - 1] = tied_value(x, touched_end_ - 1, -1);
 
     double reaction = 0.0;
+    if (fixed_afterwards_) {
+      if (fixed_left_) reaction -= set_to_zero(x[touched_begin_], left_row_);
+      if (fixed_right_) reaction -= set_to_zero(x[touched_end_ - 1], right_row_);
+      return reaction;
+    }
     if (fixed_left_) reaction += inertia_at_left_end(x) - left;
     if (fixed_right_) reaction += inertia_at_right_end(x) - right;
     return reaction;
@@ -90,6 +98,14 @@ class ConsistentMass {
   [[nodiscard]] double inertia_at_right_end(const std::vector<double>& a) const {
     double sum = 0.0;
     for (std::size_t k = 0; k <= P; ++k) sum += right_row_[k] * a[touched_end_ - 1 - k];
+    return sum;
+  }
+
+  /// Returns Σ_i M_ij of the fixed function j times its value `a`, which it sets to zero.
+  static double set_to_zero(double& a, const std::array<double, P + 1>& row) {
+    double sum = 0.0;
+    for (const double entry : row) sum += entry * a;
+    a = 0.0;
     return sum;
   }
 
@@ -134,6 +150,7 @@ class ConsistentMass {
 
   numerics::BandLdlt<P> matrix_;
   bool extended_;
+  bool fixed_afterwards_;
   std::array<double, P + 1> extension_{};
   std::array<double, P + 1> left_row_{}, right_row_{};
   bool fixed_left_ = false, fixed_right_ = false, tied_left_ = false, tied_right_ = false;

@@ -220,9 +220,9 @@ std::shared_ptr<const Discretisation> join(const Material& material, const Stage
     if (choices.sequence == Sequence::usf)
       detail::join_stress_first<P, value>(material, builder, discretisation);
     join_forces<P>(builder, splines);
-    detail::join_velocity<P>(builder, splines, affine, discretisation);
+    const Field moving = detail::join_velocity<P>(builder, splines, affine, discretisation);
     if (relaxes) detail::join_relaxation<P>(builder, least_squares);
-    detail::join_motion<P, value>(material, builder, right_end);
+    detail::join_motion<P, value>(material, builder, moving, right_end);
   };
   using detail::Motion;
   switch (detail::motion_of(builder.state)) {

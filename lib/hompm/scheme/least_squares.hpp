@@ -24,7 +24,7 @@ class LeastSquares : public Cloned<Workspace, LeastSquares<P>> {
  public:
   LeastSquares(const State& state, const SchemeChoices& choices)
       : extended_(choices.free_end == FreeEnd::extension),
-        normal_(state, extended_),
+        normal_(state, choices),
         weight_(state.particles.mass) {
     if (!choices.markers || choices.conserve == Conserve::momentum) return;
     constexpr double share = 0.1;

@@ -97,11 +97,11 @@ class Straining {
 template <int P, Motion motion>
 class Displacing {
  public:
-  explicit Displacing(State& state)
+  Displacing(State& state, const std::vector<double>& velocity)
       : place_(state.particles),
         u_(state.particles.displacement.data()),
         drift_(state.drift),
-        velocity_(state, state.basis.values, state.fields.velocity) {}
+        velocity_(state, state.basis.values, velocity) {}
 
   void operator()(std::size_t i) const {
     u_[i] += drift_ * velocity_(i);
@@ -118,7 +118,7 @@ class Displacing {
 template <int P, Motion motion, class Law>
 void move_by_increments(State& state, const Law& law) {
   const std::size_t count = state.particles.size();
-  const Displacing<P, motion> displace(state);
+  const Displacing<P, motion> displace(state, state.fields.velocity);
   const Straining<P, motion, Law> strain(state, law);
   for (std::size_t i = 0; i < count; ++i) {
     displace(i);
@@ -134,9 +134,9 @@ void strain_by_increments(State& state, const Law& law) {
 }
 
 template <int P, Motion motion>
-void displace(State& state) {
+void displace(State& state, const std::vector<double>& velocity) {
   const std::size_t count = state.particles.size();
-  const Displacing<P, motion> displace(state);
+  const Displacing<P, motion> displace(state, velocity);
   for (std::size_t i = 0; i < count; ++i) displace(i);
 }
 
@@ -334,10 +334,12 @@ void join_stress_first(const Material& material, const StageBuilder& builder,
                  [](State& state, const auto& law) { strain_by_increments<P, motion>(state, law); });
 }
 
+/// `velocity` of the grid moves the particles, that of the state strains them.
 template <int P, Motion motion>
-void join_motion(const Material& material, const StageBuilder& builder, Field right_end) {
+void join_motion(const Material& material, const StageBuilder& builder, Field velocity, Field right_end) {
   const SchemeChoices& choices = builder.scheme.choices;
-  const Fields reads{"basis.first"_field, "basis.values"_field, "grid.velocity"_field};
+  const Fields reads{"basis.first"_field, "basis.values"_field, velocity};
+  const bool moved_apart = velocity != "grid.velocity"_field;
   if (right_end && motion == Motion::updated)
     builder.add({.name = "ends of the particle domains",
                  .phase = Phase::motion,
@@ -349,26 +351,30 @@ void join_motion(const Material& material, const StageBuilder& builder, Field ri
                  .phase = Phase::motion,
                  .reads = reads,
                  .changes = {"particles.displacement"_field},
-                 .run = [](State& state) {
-                   add_at_particles<P>(state, state.drift, state.fields.velocity,
-                                       state.particles.displacement);
+                 .run = [velocity](State& state) {
+                   add_at_particles<P>(state, state.drift, state[velocity], state.particles.displacement);
                  }});
     if (choices.quadrature == Quadrature::reconstructed_exact)
       join_stretch_from_positions<MatchingSplines<P>, motion>(material, builder);
     else
       join_stretch_from_positions<numerics::CubicSplineSites, motion>(material, builder);
-  } else if (choices.sequence == Sequence::usf) {
+    return;
+  }
+  if (choices.sequence == Sequence::usf || moved_apart)
     builder.add({.name = "displacement",
                  .phase = Phase::motion,
                  .reads = reads,
                  .changes = {"particles.displacement"_field},
                  .writes = {"particles.position"_field},
-                 .run = displace<P, motion>});
-  } else {
+                 .run = [velocity](State& state) { displace<P, motion>(state, state[velocity]); }});
+  if (choices.sequence == Sequence::usf) return;
+  if (moved_apart)
+    join_straining(Phase::motion, "stretch, stress", material, {}, {"particles.volume"_field}, builder,
+                   [](State& state, const auto& law) { strain_by_increments<P, motion>(state, law); });
+  else
     join_straining(Phase::motion, "displacement, stretch, stress", material, {"particles.displacement"_field},
                    {"particles.position"_field, "particles.volume"_field}, builder,
                    [](State& state, const auto& law) { move_by_increments<P, motion>(state, law); });
-  }
 }
 
 }  // namespace hompm::detail

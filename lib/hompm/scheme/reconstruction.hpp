@@ -68,7 +68,7 @@ class ReconstructionFrom final : public Cloned<Reconstruction, ReconstructionFro
         momentum_density_(choices.conserve == Conserve::cell_momentum ? density_.size() : 0),
         momentum_weight_(choices.conserve == Conserve::cell_momentum ? gauss_.capacity() : 0),
         missing_(choices.conserve == Conserve::momentum ? state.fields.mass.size() : 0),
-        mass_(state, choices.free_end == FreeEnd::extension),
+        mass_(state, choices),
         conserve_(choices.conserve) {}
 
   void update_sites(const State& state) override {

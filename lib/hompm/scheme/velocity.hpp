@@ -185,39 +185,48 @@ void join_velocity_of_particles(const StageBuilder& builder, Own<Reconstruction>
   builder.add(std::move(stage));
 }
 
-/// USL and USF: v_i = P(v_p − κ Σ N_j a_j)_i + κ a_i. The velocities before the kick go to the grid, which
-/// takes the kick whole.
+/// v_i = P(v_p − κ Σ N_j a_j)_i + κ a_i. The velocities before the kick go to the grid, which takes the kick
+/// whole. Of the impulses that hold fixed ends `share` is booked.
 template <int P>
-void join_velocity_after_kick(const StageBuilder& builder, const SharedDiscretisation& discretisation) {
+void join_velocity_after_kick(const StageBuilder& builder, const SharedDiscretisation& discretisation,
+                              Field grid_velocity, double share) {
   const Field before = builder.field({"velocity_before_kick", "m/s", "without the kick of the step"});
   Stage stage{.name = "grid velocity before the kick, and the kick",
               .phase = Phase::velocity,
               .reads = discretisation->reads(),
               .changes = {"balance.impulse"_field},
-              .writes = {before, "grid.velocity"_field},
-              .run = [=, share = share_of_reaction(builder.scheme.choices)](State& state) {
+              .writes = {before, grid_velocity},
+              .run = [=](State& state) {
                 auto& velocity = state[before];
                 velocity = state.particles.velocity;
-                GridFields& g = state.fields;
-                add_at_particles<P>(state, -state.kick, g.acceleration, velocity);
-                state.balance.impulse += share * discretisation->project(state, velocity, g.velocity);
-                for (std::size_t i = 0; i < g.velocity.size(); ++i)
-                  g.velocity[i] += state.kick * g.acceleration[i];
+                auto& target = state[grid_velocity];
+                const auto& acceleration = state.fields.acceleration;
+                add_at_particles<P>(state, -state.kick, acceleration, velocity);
+                state.balance.impulse += share * discretisation->project(state, velocity, target);
+                for (std::size_t i = 0; i < target.size(); ++i) target[i] += state.kick * acceleration[i];
               }};
   stage.reads.insert(stage.reads.end(), {"particles.velocity"_field, "grid.acceleration"_field});
   builder.add(std::move(stage));
 }
 
+/// Returns the grid velocity that moves the particles.
 template <int P>
-void join_velocity(const StageBuilder& builder, Own<Reconstruction> splines,
-                   const std::shared_ptr<const AffineVelocity<P>>& affine,
-                   const SharedDiscretisation& discretisation) {
+Field join_velocity(const StageBuilder& builder, Own<Reconstruction> splines,
+                    const std::shared_ptr<const AffineVelocity<P>>& affine,
+                    const SharedDiscretisation& discretisation) {
   join_acceleration<P>(builder, splines);
-  if (builder.scheme.choices.sequence == Sequence::musl)
+  const SchemeChoices& choices = builder.scheme.choices;
+  Field moving = "grid.velocity"_field;
+  if (choices.position_update == PositionUpdate::before_projection) {
+    moving = builder.field({"moving_velocity", "m/s", "that moves the particles", Site::function});
+    join_velocity_after_kick<P>(builder, discretisation, moving, 0.0);
+  }
+  if (choices.sequence == Sequence::musl)
     join_velocity_of_particles<P>(builder, splines, discretisation);
   else
-    join_velocity_after_kick<P>(builder, discretisation);
+    join_velocity_after_kick<P>(builder, discretisation, moving, share_of_reaction(choices));
   join_transfer<P>(builder, affine, discretisation);
+  return moving;
 }
 
 }  // namespace hompm::detail
