@@ -1,15 +1,21 @@
 #include "foreign.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
+#include <hompm/output/staging.hpp>
 #include <hompm/verify/foreign_comparison.hpp>
 
 #include "bounds.hpp"
 #include "foreign_formats.hpp"
 #include "foreign_picture.hpp"
 #include "foreign_text.hpp"
+#include "progress.hpp"
 
 namespace hompm::cli {
 namespace {
@@ -57,6 +63,47 @@ ForeignOptions read_options(const po::variables_map& given) {
   return options;
 }
 
+/// Which variant of the scheme A agrees with.
+int tell_variants(const po::variables_map& given, const std::filesystem::path& table, const std::string& a,
+                  const std::string& b, const ForeignOptions& options) {
+  for (const char* option :
+       {"absolute", "relative", "ulps", "exact", "time", "interpolate", "submit", "picture"})
+    if (given.count(option) > 0)
+      throw UsageError("--which tells digits at all times of A: it takes no --" + std::string(option));
+  SchemeVariants variants;
+  {
+    ProgressBar bar(given.count("quiet") > 0, "variants");
+    variants = scheme_variants(table, b, options, [&](auto done, auto all) { bar.update(done, all); });
+  }
+  if (given.count("json") > 0)
+    std::cout << variants_json(variants, a, b);
+  else if (given.count("quiet") == 0)
+    std::cout << variants_text(variants, a, b);
+  return success;
+}
+
+/// A new folder for golden/others: the table, and what its author has to say of it, to be filled in.
+void submit(const std::string& folder, const std::filesystem::path& table, const std::filesystem::path& b) {
+  std::error_code none;
+  if (std::filesystem::exists(folder, none)) throw UsageError("--submit " + folder + ": it is there already");
+  const bool results = std::filesystem::is_directory(b, none);
+  const std::string name = (results ? (b / "").parent_path() : b).filename().string();
+  nlohmann::ordered_json code;
+  for (const char* word : {"code", "authors", "version", "language", "settings", "machine", "ran_by"})
+    code[word] = "";
+  code["results"] = {
+      {{"file", "results.csv"},
+       {"case", name},
+       {"run", results ? "--scene golden/" + name + "/scene.toml --snapshots 2" : "--scene " + b.string()},
+       {"ns_per_particle_and_step", nullptr}}};
+  std::ostringstream text;
+  text << std::ifstream(table).rdbuf();
+  detail::StagingFolder made(folder);
+  made.replace("results.csv", text.str());
+  made.replace("code.json",
+               code.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
 }  // namespace
 
 std::vector<Option> foreign_options() {
@@ -69,6 +116,8 @@ std::vector<Option> foreign_options() {
       {"direction", "D", "of a 2D or 3D code's results: x, y or z"},
       {"time-tolerance", "T", "times that differ by T s or less are the same"},
       {"time-step", "T", "of a dump that counts steps, in s"},
+      {"submit", "FOLDER", "make a folder for golden/others of A, to be filled in"},
+      {"which", "", "run variants of the scheme of B, and say which A agrees with, to how many digits"},
       {"picture", "FILE", "draw A, B and exact solution: .svg or .png, by gnuplot"}};
 }
 
@@ -93,7 +142,9 @@ int compare_csv(const po::variables_map& given, const std::string& csv, const st
       step = parse_bound(text, "--time-step " + text);
     }
     const TableFile table(csv, options.direction, step);
+    if (given.count("which") > 0) return tell_variants(given, table.path(), csv, folder, options);
     comparison = compare_foreign(table.path(), folder, options);
+    if (given.count("submit") > 0) submit(given["submit"].as<std::string>(), table.path(), folder);
   } catch (const OptionError& error) {
     throw UsageError(error.what());
   }

@@ -31,6 +31,13 @@ Json json(const std::optional<ErrorNorms>& norms) {
   return {{"rms", number(norms->rms)}, {"max", number(norms->max)}};
 }
 
+/// With one digit behind the point.
+std::string tenths(double value) {
+  std::array<char, 32> digits{};
+  return {digits.begin(),
+          std::to_chars(digits.begin(), digits.end(), value, std::chars_format::fixed, 1).ptr};
+}
+
 /// The fields in their order, each once.
 std::vector<std::string> fields_of(const ForeignComparison& comparison) {
   std::vector<std::string> names;
@@ -77,10 +84,7 @@ std::string agreement_text(const ForeignComparison& comparison, bool exact) {
   for (const auto& a : agreements(comparison, exact)) {
     text += text.empty() ? a.field + " agrees " + (exact ? "with the exact solution " : "")
                          : ", " + a.field + " ";
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.begin(), digits.end(), a.digits, std::chars_format::fixed, 1).ptr;
-    text += a.worst == nullptr ? "in every bit"
-                               : "to " + std::string(digits.begin(), end) + std::exchange(unit, "");
+    text += a.worst == nullptr ? "in every bit" : "to " + tenths(a.digits) + std::exchange(unit, "");
     if (a.digits >= least) continue;
     least = a.digits;
     worst = a.worst;
@@ -91,7 +95,64 @@ std::string agreement_text(const ForeignComparison& comparison, bool exact) {
   return text.empty() ? "" : text + "\n";
 }
 
+/// "scheme.sequence = usl, scheme.degree = 2"; "as it is".
+std::string changes_text(const SchemeVariant& variant) {
+  std::string text;
+  for (const auto& [key, value] : variant.changes)
+    text.append(text.empty() ? "" : ", ").append(key).append(" = ").append(value);
+  return text.empty() ? "as it is" : text;
+}
+
 }  // namespace
+
+std::string variants_text(const SchemeVariants& variants, const std::string& a, const std::string& b) {
+  const SchemeVariant& plain = variants.tried.front();
+  std::vector<std::vector<std::string>> rows{{"scene of " + b}};
+  for (const auto& [field, digits] : plain.digits) rows.front().push_back(field);
+  const auto add = [&](const SchemeVariant& variant) {
+    rows.push_back({changes_text(variant)});
+    for (const auto& [field, digits] : variant.digits) rows.back().push_back(tenths(digits));
+    rows.back().resize(rows.front().size(), "-");
+  };
+  constexpr std::size_t shown = 5;
+  for (std::size_t i = 1; i < std::min(variants.tried.size(), shown + 1); ++i) add(variants.tried[i]);
+  add(plain);
+  std::string text = "digits to which " + a + " agrees with variants of the scheme, best first; " +
+                     std::to_string(variants.tried.size()) + " were run, " +
+                     std::to_string(variants.refused) + " more are not possible\n" + text_table(rows, 1);
+  if (!plain.refused.empty()) text += "as it is: " + plain.refused + "\n";
+  if (plain.step >= 0)
+    text += "A leaves the scene as it is at step " + std::to_string(plain.step) +
+            ", t = " + to_text(plain.time) + " s, first of the times of A: " + plain.field +
+            " at X = " + rounded(plain.X) + " m\n";
+  for (const auto& note : variants.notes) text += "note: " + note + "\n";
+  const bool better =
+      variants.tried.size() > 1 && variants.tried[1].least_digits > std::max(1.0, plain.least_digits + 0.5);
+  return text +
+         (better ? "best: " + changes_text(variants.tried[1])
+                 : "no variant agrees better than the scene as it is") +
+         "\n";
+}
+
+std::string variants_json(const SchemeVariants& variants, const std::string& a, const std::string& b) {
+  auto tried = Json::array();
+  for (const auto& v : variants.tried) {
+    Json changes = Json::object();
+    for (const auto& [key, value] : v.changes) changes[key] = value;
+    const Json first{{"step", v.step}, {"time", v.time}, {"X", v.X}, {"field", v.field}};
+    tried.push_back({{"changes", changes},
+                     {"digits", v.digits},
+                     {"refused", v.refused.empty() ? Json() : Json(v.refused)},
+                     {"first_difference", v.step < 0 ? Json() : first}});
+  }
+  const Json object{{"a", a},
+                    {"b", b},
+                    {"times", variants.times},
+                    {"refused", variants.refused},
+                    {"tried", tried},
+                    {"notes", variants.notes}};
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 std::string foreign_text(const ForeignComparison& comparison) {
   std::string text = to_string(comparison.verdict) + "\n";

@@ -28,6 +28,7 @@ import tomllib
 sys.dont_write_bytecode = True
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "reproducibility"))
 import cells  # noqa: E402
+import codes_table  # noqa: E402
 import hard_cases  # noqa: E402
 import high_order_tables  # noqa: E402
 import jump_tables  # noqa: E402
@@ -547,7 +548,7 @@ PARTS = {
     "column-large": lambda tools: error_tables(tools, "column-large"),
     "column-settled": settled_table, "tolerances": tolerances, "comparing": comparing, "degrees": degree_tables, "reach": reach,
     "column-end": column_end,
-    **verification_tables.PARTS,
+    **verification_tables.PARTS, **codes_table.PARTS,
     **high_order_tables.PARTS, **high_order_tables.SLOW_PARTS,
 }
 SLOW_PARTS = list(high_order_tables.SLOW_PARTS)

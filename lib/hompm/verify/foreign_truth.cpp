@@ -11,12 +11,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The built-in scene that is called so: bar, bar-small.
-Scene builtin(const std::string& name) {
+Scene builtin(const std::string& name, const std::vector<Override>& overrides) {
   std::string names;
   for (const auto& scene : builtin_scenes()) {
     const std::string whole = scene.case_name + "-" + scene.variant;
     if (name == whole || (name == scene.case_name && scene.is_default))
-      return load_builtin(scene.case_name, scene.variant, {});
+      return load_builtin(scene.case_name, scene.variant, overrides);
     names += ", " + whole;
   }
   throw FileError("cannot compare with " + name +
@@ -25,20 +25,24 @@ Scene builtin(const std::string& name) {
 
 }  // namespace
 
+Scene scene_of(const fs::path& b, const std::vector<Override>& overrides) {
+  std::error_code none;
+  const bool folder = fs::is_directory(b, none);
+  const fs::path file = folder ? b / "scene.toml" : b;
+  if (!folder && fs::exists(b, none) && b.extension() != ".toml")
+    throw FileError("cannot compare with " + b.string() + ": it is not a folder, nor a scene file (.toml)");
+  return folder || fs::exists(file, none) ? load_scene(file.string(), overrides)
+                                          : builtin(b.string(), overrides);
+}
+
 ForeignTruth::ForeignTruth(const fs::path& b, MessageLog& notes) : name_(b.string()), notes_(notes) {
   std::error_code none;
   has_results_ = fs::is_directory(b, none);
-  const fs::path file = has_results_ ? b / "scene.toml" : b;
-  if (!has_results_ && fs::exists(b, none) && b.extension() != ".toml")
-    throw FileError("cannot compare with " + name_ + ": it is not a folder, nor a scene file (.toml)");
-  if (fs::exists(file, none)) {
-    scene_ = load_scene(file.string(), {});
-  } else if (!has_results_) {
-    scene_ = builtin(name_);
-  } else {
+  if (has_results_ && !fs::exists(b / "scene.toml", none)) {
     note("there is no scene.toml to say what the exact solution is");
     return;
   }
+  scene_ = scene_of(b, {});
   reference_ = make_reference(*scene_);
   if (!reference_) note("no exact solution of its scene is known");
 }

@@ -9,10 +9,15 @@
 
 #include <hompm/reference/reference.hpp>
 #include <hompm/scene/scene.hpp>
+#include <hompm/scene_file/reader.hpp>
 #include <hompm/verify/message_log.hpp>
 #include <hompm/verify/particle_table.hpp>
 
 namespace hompm::detail {
+
+/// The scene of a golden folder, a scene file, or the built-in case of that name (bar, bar-small). Throws
+/// `FileError` when `b` is none of the three, and `SceneError`.
+Scene scene_of(const std::filesystem::path& b, const std::vector<Override>& overrides);
 
 class ForeignTruth {
  public:
