@@ -1,0 +1,4 @@
+#include <hompm/scheme/join_degree.hpp>
+
+template std::shared_ptr<const hompm::Discretisation> hompm::detail::join_degree<1>(
+    const Material& material, const StageBuilder& builder);
