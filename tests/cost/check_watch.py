@@ -36,7 +36,7 @@ def instructions(tool, scheme, steps, watched):
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         (work / "scene.toml").write_text(scene_text(scheme, SCENES[scheme]), encoding="utf-8")
-        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={work}/callgrind.out", tool, work / "scene.toml", str(steps)]
+        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={work}/callgrind.out", tool, str(steps), work / "scene.toml"]
         done = subprocess.run(command + ["watched"] * watched, env=os.environ | STEADY, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             sys.exit(f"{scheme}: {done.stderr}")
