@@ -8,7 +8,8 @@ Each file gets a copy of the source tree to work in, and BIN_DIR (hompm-run, hom
 - the lines of a ```sh block are run in order, each by a shell of its own (a `\\` at the end joins it with the next);
 - a line that ends in `# exit N` must end with that exit code, all others with 0;
 - a script of the tree, such as tests/run.sh, is not run but must be there and executable;
-- with --quick a block that calls Octave or hompm-study is left out: the first is not installed by default, the other takes half a minute.
+- with --quick a block that calls Octave, hompm-study or another code is left out: the first is not installed by default, the
+  others take long.
 
 Exit code 0: all fine; 1: a complaint, with file and line; 2: bad usage.
 """
@@ -23,7 +24,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SKIPPED = ("build", ".git", "hompm-out", "__pycache__")
 SECONDS = 120
-LATER = ("octave-cli ", "hompm-study ")  # what --quick leaves out
+LATER = ("octave-cli ", "hompm-study ", "python3 golden/examples/")  # what --quick leaves out
 
 
 def markdown_files():
