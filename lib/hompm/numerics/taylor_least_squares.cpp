@@ -3,7 +3,7 @@
 namespace hompm::numerics {
 
 TaylorLeastSquares::TaylorLeastSquares(std::size_t sites, const SplineSpace& grid)
-    : grid_(grid), inverse_width_(1.0 / grid.cell_width()), place_(sites), pieces_(sites) {}
+    : grid_(grid), inverse_width_(1.0 / grid.cell_width()), place_(3 * sites), pieces_(sites) {}
 
 std::size_t TaylorLeastSquares::factorise(std::span<const double> sites) {
   for (std::size_t i = 1; i < sites.size(); ++i)
@@ -14,30 +14,36 @@ std::size_t TaylorLeastSquares::factorise(std::span<const double> sites) {
     return i == 1 || i + 1 == sites.size() || cell_of(i) == cell_of(i - 1);
   };
   count_ = 0;
+  double* place = place_.data();
   for (std::size_t i = 0; i < sites.size(); ++count_) {
     const double start = grid_.breakpoint(cell_of(i));
-    const std::size_t begin = i;
-    do {
-      place_[i] = (sites[i] - start) * inverse_width_;
-      ++i;
-    } while (i < sites.size() && goes_on(i));
+    std::size_t begin = i;
+    do ++i;
+    while (i < sites.size() && goes_on(i));
+    std::size_t end = i;
+    if (end - begin == 1 && begin > 0 && end < sites.size()) {
+      --begin;
+      ++end;
+    }
+    for (std::size_t k = begin; k < end; ++k) place[k - begin] = (sites[k] - start) * inverse_width_;
     pieces_[count_] = {
-        i, start,
+        begin, end, start,
         orthogonal_quadratics(
-            i - begin, [&](std::size_t k) { return place_[begin + k]; }, [](std::size_t) { return 1.0; })};
+            end - begin, [&](std::size_t k) { return place[k]; }, [](std::size_t) { return 1.0; })};
+    place += end - begin;
   }
   return 0;
 }
 
 void TaylorLeastSquares::fit(std::span<const double> values, Fit& fit) const {
-  std::size_t i = 0;
+  const double* place = place_.data();
   for (std::size_t piece = 0; piece < count_; ++piece) {
-    const auto& [end, start, basis] = pieces_[piece];
+    const auto& [begin, end, start, basis] = pieces_[piece];
     std::array<double, 3> sum{};
-    for (; i < end; ++i) {
+    for (std::size_t i = begin; i < end; ++i, ++place) {
       sum[0] += values[i];
-      sum[1] += values[i] * basis.q1(place_[i]);
-      sum[2] += values[i] * basis.q2(place_[i]);
+      sum[1] += values[i] * basis.q1(*place);
+      sum[2] += values[i] * basis.q2(*place);
     }
     for (std::size_t k = 0; k < 3; ++k) fit.coefficients[piece][k] = sum[k] * basis.inverse_norm[k];
   }

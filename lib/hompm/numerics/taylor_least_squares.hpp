@@ -13,9 +13,9 @@ namespace hompm::numerics {
 
 /// In each cell of a grid the parabola nearest to the data of the sites there (E. Wobbes, M. Möller, V.
 /// Galavi, C. Vuik, Int. J. Numer. Methods Engrg. 117 (2019) 271–290), with a jump at the breakpoints. Two
-/// sites in a cell give a line, one a constant; a cell without sites takes the parabola of the one before it,
-/// or of the first that has one. An outer cell with one site has a parabola in common with the next that has
-/// sites: a free end passes there, where a constant is of first order. Same use as `CubicSplineSites`, but
+/// sites in a cell give a line; one, which tells no slope, the parabola through it and those beside it. A
+/// cell without sites takes the parabola of the one before it, or of the first that has one. An outer cell
+/// with one site has a parabola in common with the next that has sites. Same use as `CubicSplineSites`, but
 /// for slopes.
 class TaylorLeastSquares {
  public:
@@ -56,15 +56,15 @@ class TaylorLeastSquares {
 
  private:
   struct Piece {
-    std::size_t end;  ///< of its sites
-    double start;     ///< m, of its cell
+    std::size_t begin, end;  ///< of its sites
+    double start;            ///< m, of its cell
     OrthogonalQuadratics basis;
   };
 
   SplineSpace grid_;
   double inverse_width_;
   std::size_t count_ = 0;      ///< of the pieces
-  std::vector<double> place_;  ///< of each site in its cell, in cell widths
+  std::vector<double> place_;  ///< of the sites of each piece in its cell, in cell widths
   std::vector<Piece> pieces_;
 };
 
