@@ -206,6 +206,11 @@ int run_tool(Tool tool, int argc, const char* const* argv,
     std::cerr << tool.name << ": " << message << '\n';
     return code;
   };
+  // Words of the command line and names of files may hold anything.
+  const auto fail_on_one_line = [&](const std::exception& error, const std::string& hint, int code) {
+    const std::string message = error.what();
+    return fail(detail::printable(message, message.size()) + hint, code);
+  };
   try {
     const int code = answer(tool, argc, argv, body);
     errno = 0;
@@ -215,14 +220,13 @@ int run_tool(Tool tool, int argc, const char* const* argv,
     }
     return code;
   } catch (const UsageError& error) {
-    const std::string message = error.what();  // words of the command line may hold anything
-    return fail(detail::printable(message, message.size()) + " (see " + tool.name + " --help)", usage);
+    return fail_on_one_line(error, " (see " + tool.name + " --help)", usage);
   } catch (const SceneError& error) {
     return fail(error.what(), usage);
   } catch (const InvalidRun& error) {
     return fail(error.what(), invalid_run);
   } catch (const FileError& error) {
-    return fail(error.what(), bad_file);
+    return fail_on_one_line(error, "", bad_file);
   } catch (const ArithmeticError& error) {
     return fail(error.what(), arithmetic);
   } catch (const std::bad_alloc&) {

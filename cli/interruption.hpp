@@ -14,8 +14,8 @@ struct Interrupted {
 };
 
 /// From here on one of these signals ends the program at once with "<tool>: stopped by SIGINT" and the exit
-/// code of `Interrupted`, but for where a `HeldInterruption` lives. A hang-up that is ignored, as under
-/// nohup, stays ignored. `tool` must outlive the program.
+/// code of `Interrupted`, but for where a `HeldInterruption` lives. One that is ignored stays ignored: SIGHUP
+/// under nohup, SIGINT in the background of a script. `tool` must outlive the program.
 void catch_interruption(const char* tool);
 
 /// As long as it lives, a signal is only noted. One at a time.

@@ -31,10 +31,10 @@ std::string words(const fs::path& path) { return quoted(path.string()); }
 std::string said_of(const fs::path& folder) { return read_file(folder / "run.json"); }
 
 /// Starts a run, waits until `ready` holds in the shell, sends the signal, and hands back the run's exit
-/// code.
+/// code. What a shell runs in the background ignores SIGINT: `env` undoes that.
 CommandResult signalled(const std::string& options, const std::string& ready, const std::string& signal) {
-  return run_command(tool + options + " & run=$!; while kill -0 $run && ! { " + ready +
-                     "; } 2>/dev/null; do sleep 0.01; done; kill -" + signal + " $run; wait $run");
+  return run_command("env --default-signal " + tool + options + " & run=$!; while kill -0 $run && ! { " +
+                     ready + "; } 2>/dev/null; do sleep 0.01; done; kill -" + signal + " $run; wait $run");
 }
 
 }  // namespace
@@ -162,6 +162,18 @@ TEST_CASE("fault 12: a signal ends a run with one line, 128 + n, and a checkpoin
   CHECK(std::distance(fs::directory_iterator(scratch / "out"), {}) == 1);
 }
 
+TEST_CASE("fault 12: a signal that is ignored when the program starts stays ignored") {
+  const TemporaryFolder scratch;
+  // SIGINT in the background of a script, SIGHUP under nohup.
+  const auto done = run_command("trap '' HUP; " + tool + slow + " --output " + words(scratch / "out") +
+                                " & run=$!; until ls -d " + words(scratch / "out") +
+                                "/.hompm-partial-* 2>/dev/null; do sleep 0.01; done; kill -INT $run; kill "
+                                "-HUP $run; sleep 0.1; kill -TERM $run; wait $run");
+  INFO(done.err);
+  CHECK(done.exit_code == 128 + 15);
+  CHECK_THAT(done.err, contains("stopped by SIGTERM"));
+}
+
 TEST_CASE("a run goes on to a later end time from the checkpoint that it kept, with the same bits") {
   const TemporaryFolder scratch;
   const std::string bar = " --case bar --cells 8 --no-vtk --snapshots 1 --set output.history=1 --output ";
@@ -199,6 +211,17 @@ TEST_CASE("what does not fit in memory is refused with the number, before anythi
              contains("--cells 1000000: the run needs about ") &&
                  contains(" MB of memory, and ulimit -v has 1024 MB: take fewer cells or particles"));
   CHECK_FALSE(fs::exists(scratch / "out"));
+}
+
+TEST_CASE("names of files are told on one line, whatever they hold") {
+  const TemporaryFolder scratch;
+  const auto done = run_command(tool + " --scene " + words(scratch / "a\n\x1b[31mb.toml"));
+  CHECK(done.exit_code == 5);
+  CHECK_THAT(done.err, contains("/a\\u000A\\u001B[31mb.toml: No such file or directory\n"));
+  write_file(scratch / "c\n.toml", "end_time = 0\n");
+  const auto refused = run_command(tool + " --scene " + words(scratch / "c\n.toml"));
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, contains("/c\\u000A.toml:1:12: `end_time` must be"));
 }
 
 TEST_CASE("numbers too large to start from are refused in one line") {
@@ -274,4 +297,47 @@ TEST_CASE("fault 12: a stiff reference is a sum of modes, as good as the method 
   loads.viscosity = 200.0;
   loads.right.push_back({1.0, {.ramp_time = 0.03, .frequency = 0.0, .duration = 0.04}});
   CHECK_FALSE(hompm::kelvin_voigt_bar(bar, loads, 1.0));
+}
+
+TEST_CASE("fault 12: a stiff reference with a law of large strains takes an implicit method") {
+  for (const std::string law : {"rate", "hencky", "neo-hookean"})
+    for (const std::string ends :
+         {"left = \"fixed\", right = \"free\"", "left = \"free\", right = \"fixed\""}) {
+      auto bar =
+          hompm::parse_scene("end_time = 0.1\nbody = { length = 1.0 }\nmaterial = { law = \"" + law +
+                                 "\", density = 1000.0, youngs_modulus = 1e5 }\nends = { " + ends +
+                                 " }\nscheme = { cells = 8, particles_per_cell = 2, step_fraction = 0.1 }\n"
+                                 "initial.velocity = { shape = \"sine\", amplitude = 3.0, mode = 1 }\n"
+                                 "[[effect]]\ntype = \"viscosity\"\nviscosity = 2000.0\n"
+                                 "[[effect]]\ntype = \"gravity\"\nacceleration = -20.0\nramp_time = 0.05\n"
+                                 "[[effect]]\ntype = \"mass-damping\"\nrate = 3.0\n",
+                             "bar", {});
+      auto loads = *loads_of(bar);
+      const std::vector<double> X{0.0625, 0.3125, 0.6875, 0.9375};
+      const auto steps_of = [&](double factor, hompm::ReferenceFields& fields) {
+        int steps = 0;
+        fields =
+            hompm::method_of_lines(bar, loads, {8, 6, factor}, [&](double) { ++steps; })(bar.end_time, X);
+        return steps;
+      };
+      INFO(law << ends);
+      hompm::ReferenceFields implicit, finer, explicit_;
+      CHECK(steps_of(1.0, implicit) < 100);
+      CHECK(steps_of(0.5, finer) < 200);
+      CHECK(steps_of(0.02, explicit_) > 1000);
+      const auto distance = [&](const hompm::ReferenceFields& fields) {
+        double most = 0.0;
+        for (std::size_t i = 0; i < X.size(); ++i)
+          most = std::max({most, std::abs(fields.displacement[i] - explicit_.displacement[i]) / 0.1,
+                           std::abs(fields.velocity[i] - explicit_.velocity[i]) / 3.0,
+                           std::abs(fields.stress[i] - explicit_.stress[i]) / 1e4});
+        return most;
+      };
+      CAPTURE(distance(implicit), distance(finer));
+      // Measured 5e-8; stiffness leaves the third order of the fourth.
+      CHECK(distance(implicit) < 1e-6);
+      CHECK(distance(finer) < 0.2 * distance(implicit));
+      loads.viscosity *= 1000.0;
+      CHECK(steps_of(1.0, implicit) < 100);
+    }
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -10,6 +11,7 @@
 
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
+#include <hompm/numerics/band_ldlt.hpp>
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/reference/lobatto.hpp>
 #include <hompm/reference/method_of_lines.hpp>
@@ -39,7 +41,9 @@ class Lines {
         gradient_(rule_.derivative),
         inverse_mass_(nodes_),
         state_(2 * nodes_),
-        stress_(degree_ + 1) {
+        stress_(degree_ + 1),
+        stiff_(stable_step() < worth_an_implicit_one * implicit_step()),
+        matrix_(stiff_ ? nodes_ : 0) {
     for (double& entry : gradient_) entry *= 2.0 / width_;
     for (std::size_t e = 0; e < elements_; ++e) {
       for (std::size_t i = 0; i <= degree_; ++i) {
@@ -111,9 +115,12 @@ class Lines {
     const double from = time_;
     while (time_ < time) {
       if (watch_) watch_((time_ - from) / (time - from));
-      const double steps = std::ceil((time - time_) / stable_step());
+      const double steps = std::ceil((time - time_) / (stiff_ ? implicit_step() : stable_step()));
       const double step = (time - time_) / steps;
-      stepper_.do_step(std::ref(*this), state_, time_, step);
+      if (stiff_)
+        do_implicit_step(step);
+      else
+        stepper_.do_step(std::ref(*this), state_, time_, step);
       time_ = steps > 1.0 ? time_ + step : time;
       if (!valid_) {
         throw Error("no smooth reference solution exists beyond t = " + to_text(time_) +
@@ -149,15 +156,100 @@ class Lines {
   // Below this stretch the material counts as inside out, lest the stable step shrink to nothing.
   static constexpr double collapsed = 1e-4;
 
+  // Of the costs of two steps.
+  static constexpr double worth_an_implicit_one = 0.1;
+
   // Every law is stiffest where it is most compressed.
+  [[nodiscard]] double fastest() const { return std::sqrt(law_.tangent(smallest_stretch_) / density_); }
+
+  [[nodiscard]] double implicit_step() const {
+    return step_factor_ * width_ / static_cast<double>(degree_) / fastest();
+  }
+
   [[nodiscard]] double stable_step() const {
-    const double speed = std::sqrt(law_.tangent(smallest_stretch_) / density_);
+    const double speed = fastest();
     const double spacing = 0.5 * width_ * (rule_.nodes[1] - rule_.nodes[0]);
     const double step = step_factor_ * spacing / speed;
     if (loads_.viscosity == 0.0) return step;
     // The largest rate of decay is some 10 η/(ρ spacing²); the method is stable up to 2.78 over it.
     return std::min(step, 0.2 * spacing * spacing * density_ / loads_.viscosity);
   }
+
+  /// By the L-stable method of order 4 with five stages, each implicit in itself alone, of E. Hairer, G.
+  /// Wanner, Solving Ordinary Differential Equations II, table IV.6.5. What is unknown in a stage is its
+  /// velocity V, with u* + γh V the displacement: (M + γh C + γ²h² K) δV = M (v* + γh a(V) − V), with K and C
+  /// those of the start of the step.
+  void do_implicit_step(double h) {
+    constexpr std::size_t stages = 5;
+    constexpr double gamma = 0.25;
+    constexpr double a[stages][stages] = {{gamma},
+                                          {1.0 / 2.0, gamma},
+                                          {17.0 / 50.0, -1.0 / 25.0, gamma},
+                                          {371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0, gamma},
+                                          {25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0, gamma}};
+    constexpr double c[stages] = {1.0 / 4.0, 3.0 / 4.0, 11.0 / 20.0, 1.0 / 2.0, 1.0};
+    const double part = gamma * h;
+    factorise(part);
+    const State start = state_;
+    State known(2 * nodes_);
+    State rate(2 * nodes_);
+    std::vector<double> change(nodes_);
+    std::array<State, stages> rates;
+    for (std::size_t s = 0; s < stages; ++s) {
+      known = start;
+      for (std::size_t j = 0; j < s; ++j)
+        for (std::size_t i = 0; i < known.size(); ++i) known[i] += h * a[s][j] * rates[j][i];
+      // `state_` goes on from the stage before. Newton's method ends where rounding does.
+      double before = std::numeric_limits<double>::infinity();
+      for (;;) {
+        for (std::size_t i = 0; i < nodes_; ++i) state_[i] = known[i] + part * state_[nodes_ + i];
+        (*this)(state_, rate, time_ + c[s] * h);
+        for (std::size_t i = 0; i < nodes_; ++i)
+          change[i] = (known[nodes_ + i] + part * rate[nodes_ + i] - state_[nodes_ + i]) / inverse_mass_[i];
+        matrix_.solve(first_free(), last_free(), change);
+        double largest = 0.0;
+        for (std::size_t i = first_free(); i < last_free(); ++i) {
+          state_[nodes_ + i] += change[i];
+          largest = std::max(largest, std::abs(change[i]));
+        }
+        if (!valid_ || !(largest < 0.5 * before)) break;
+        before = largest;
+      }
+      for (std::size_t i = 0; i < nodes_; ++i) state_[i] = known[i] + part * state_[nodes_ + i];
+      rates[s].resize(2 * nodes_);
+      for (std::size_t i = 0; i < known.size(); ++i) rates[s][i] = (state_[i] - known[i]) / part;
+    }
+  }
+
+  /// M + γh C + γ²h² K for the present state.
+  void factorise(double part) {
+    const std::size_t n = degree_ + 1;
+    matrix_.clear();
+    for (std::size_t i = 0; i < nodes_; ++i) matrix_.lower(i, 0) = 1.0 / inverse_mass_[i];
+    for (std::size_t e = 0; e < elements_; ++e) {
+      const std::size_t first = e * degree_;
+      for (std::size_t q = 0; q < n; ++q) {
+        const double* g = &gradient_[q * n];
+        double stretch = 1.0;
+        double rate = 0.0;
+        for (std::size_t j = 0; j < n; ++j) {
+          stretch += g[j] * state_[first + j];
+          rate += g[j] * state_[nodes_ + first + j];
+        }
+        const double viscosity = loads_.viscosity / (moves_ ? stretch : 1.0);
+        const double tangent = law_.tangent(stretch) - (moves_ ? viscosity * rate / stretch : 0.0);
+        const double weight = 0.5 * width_ * rule_.weights[q] * part * (viscosity + part * tangent);
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t j = 0; j <= i; ++j) matrix_.lower(first + i, i - j) += weight * g[i] * g[j];
+      }
+    }
+    for (std::size_t i = 0; i < nodes_; ++i)
+      matrix_.lower(i, 0) += part * loads_.damping_rate / inverse_mass_[i];
+    valid_ = valid_ && matrix_.factorise(first_free(), last_free()) == last_free();
+  }
+
+  [[nodiscard]] std::size_t first_free() const { return ends_.left == End::fixed ? 1 : 0; }
+  [[nodiscard]] std::size_t last_free() const { return nodes_ - (ends_.right == End::fixed ? 1 : 0); }
 
   Law law_;
   ReferenceWatch watch_;
@@ -178,6 +270,8 @@ class Lines {
   double time_ = 0.0;
   double smallest_stretch_ = 1.0;
   bool valid_ = true;
+  bool stiff_;
+  numerics::BandLdlt<12> matrix_;  // at most: the degree of `suitable_resolution`
   boost::numeric::odeint::runge_kutta4<State> stepper_;
 };
 

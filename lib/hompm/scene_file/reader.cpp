@@ -145,7 +145,7 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
 
 Scene load_scene(const std::string& path, const std::vector<Override>& overrides,
                  const EffectCatalogue& effects) {
-  return parse_scene(detail::file_text(path), path, overrides, effects);
+  return parse_scene(detail::file_text(path), detail::printable(path, path.size()), overrides, effects);
 }
 
 }  // namespace hompm
