@@ -1,6 +1,7 @@
 // The consistent mass matrix of the grid, and its free ends.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -18,8 +19,9 @@ namespace hompm::detail {
 ///
 /// At a free end with extension the one function that lives on the cut span alone, whose mass vanishes with
 /// the cut, is tied to the P + 1 next to it so that polynomials of degree P are kept: c_j = Σ_{k=1}^{P+1}
-/// (−1)^{k+1} C(P+1, k) c_{j∓k} (extended B-splines: Höllig, Reif, Wipper 2001; for MPM Yamaguchi, Moriguchi,
-/// Terada 2021). The system is then Cᵀ M C with right-hand side Cᵀ f, of the same bandwidth.
+/// e_k c_{j∓k}, with e_k = (−1)^{k+1} C(P+1, k) on uniform knots (extended B-splines: Höllig, Reif, Wipper
+/// 2001; for MPM Yamaguchi, Moriguchi, Terada 2021). The system is then Cᵀ M C with right-hand side Cᵀ f, of
+/// the same bandwidth.
 template <int P>
 class ConsistentMass {
  public:
@@ -27,11 +29,7 @@ class ConsistentMass {
       : matrix_(static_cast<std::size_t>(state.grid.functions())),
         extended_(choices.free_end == FreeEnd::extension),
         fixed_afterwards_(choices.essential_conditions == EssentialConditions::after_solution) {
-    double binomial = 1.0;
-    for (int k = 1; k <= P + 1; ++k) {
-      binomial = binomial * (P + 2 - k) / k;
-      extension_[static_cast<std::size_t>(k - 1)] = k % 2 == 1 ? binomial : -binomial;
-    }
+    for (int j = 0; j < P; ++j) extensions_[static_cast<std::size_t>(j)] = extension_of(j);
   }
 
   void clear() { matrix_.clear(); }
@@ -56,6 +54,9 @@ class ConsistentMass {
       // Too few functions to tie: a body of a cell or two has no inside to extend from.
       tied_left_ = tied_right_ = false;
     }
+    const std::size_t beyond = static_cast<std::size_t>(state.grid.functions()) - end;
+    left_extension_ = extensions_[std::min<std::size_t>(begin, P - 1)];
+    right_extension_ = extensions_[std::min<std::size_t>(beyond, P - 1)];
     if (tied_left_) tie(begin, +1);
     if (tied_right_) tie(end - 1, -1);
     if (!diagonal.empty()) add_diagonal(diagonal);
@@ -109,6 +110,34 @@ class ConsistentMass {
     return sum;
   }
 
+  using Extension = std::array<double, P + 1>;
+
+  /// e_k of the function j from the left end of the grid, whose first knot comes P + 1 times; from j = P − 1
+  /// on all that count are uniform. The derivative of order P of a polynomial has one coefficient on all
+  /// cells: the difference of two, as c_j … c_{j+P+1} give them (de Boor, ch. X: c′_i = P (c_i − c_{i−1}) /
+  /// (t_{i+P} − t_i), and so on), is 0.
+  static Extension extension_of(int j) {
+    const auto knot = [](int i) { return std::max(i - P, 0); };
+    std::array<std::array<double, P + 2>, P + 2> derivative{};  // [function][coefficient it is made of]
+    for (std::size_t i = 0; i < P + 2; ++i) derivative[i][i] = 1.0;
+    for (int order = 1; order <= P + 1; ++order)
+      for (int i = P + 1; i >= order; --i) {
+        const int degree = P + 1 - order;
+        const double scale =
+            degree == 0 ? 1.0 : static_cast<double>(degree) / (knot(j + i + degree) - knot(j + i));
+        auto& upper = derivative[static_cast<std::size_t>(i)];
+        const auto& lower = derivative[static_cast<std::size_t>(i - 1)];
+        for (std::size_t k = 0; k < P + 2; ++k) upper[k] = scale * (upper[k] - lower[k]);
+      }
+    Extension e;
+    for (std::size_t k = 0; k <= P; ++k) e[k] = -derivative[P + 1][k + 1] / derivative[P + 1][0];
+    return e;
+  }
+
+  [[nodiscard]] const Extension& extension(int direction) const {
+    return direction > 0 ? left_extension_ : right_extension_;
+  }
+
   static std::size_t next(std::size_t j, std::size_t k, int direction) {
     return direction > 0 ? j + k : j - k;
   }
@@ -119,12 +148,13 @@ class ConsistentMass {
 
   /// Cᵀ M C for the tied function j: row and column j go to the functions it is tied to.
   void tie(std::size_t j, int direction) {
+    const Extension& e = extension(direction);
     std::array<double, P + 2> coupling{};  // M_{j, j∓k}
     for (std::size_t k = 0; k <= P; ++k) coupling[k] = at(j, next(j, k, direction));
     for (std::size_t a = 1; a <= P + 1; ++a)
       for (std::size_t b = 1; b <= a; ++b) {
-        const double ea = extension_[a - 1];
-        const double eb = extension_[b - 1];
+        const double ea = e[a - 1];
+        const double eb = e[b - 1];
         at(next(j, a, direction), next(j, b, direction)) +=
             ea * coupling[b] + eb * coupling[a] + ea * eb * coupling[0];
       }
@@ -139,19 +169,22 @@ class ConsistentMass {
   }
 
   void gather_tied(std::span<double> b, std::size_t j, int direction) const {
-    for (std::size_t k = 1; k <= P + 1; ++k) b[next(j, k, direction)] += extension_[k - 1] * b[j];
+    const Extension& e = extension(direction);
+    for (std::size_t k = 1; k <= P + 1; ++k) b[next(j, k, direction)] += e[k - 1] * b[j];
   }
 
   [[nodiscard]] double tied_value(const std::vector<double>& x, std::size_t j, int direction) const {
+    const Extension& e = extension(direction);
     double sum = 0.0;
-    for (std::size_t k = 1; k <= P + 1; ++k) sum += extension_[k - 1] * x[next(j, k, direction)];
+    for (std::size_t k = 1; k <= P + 1; ++k) sum += e[k - 1] * x[next(j, k, direction)];
     return sum;
   }
 
   numerics::BandLdlt<P> matrix_;
   bool extended_;
   bool fixed_afterwards_;
-  std::array<double, P + 1> extension_{};
+  std::array<Extension, P> extensions_{};  ///< by the functions between the tied one and the end of the grid
+  Extension left_extension_{}, right_extension_{};
   std::array<double, P + 1> left_row_{}, right_row_{};
   bool fixed_left_ = false, fixed_right_ = false, tied_left_ = false, tied_right_ = false;
   std::size_t touched_begin_ = 0, touched_end_ = 0;  ///< functions that touch material

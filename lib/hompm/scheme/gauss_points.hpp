@@ -9,6 +9,23 @@
 
 namespace hompm::detail {
 
+/// In cells. An end of the material that is on a breakpoint but for this touches one side of it, left and
+/// right alike.
+inline constexpr double rounding_of_ends = 1e-10;
+
+/// The cells that material from `left` to `right`, both on the grid, fills: the first from `s` on, the last
+/// up to `s`.
+struct FilledCells {
+  numerics::SplineSpace::Location first, last;
+};
+inline FilledCells filled_cells(const numerics::SplineSpace& grid, double left, double right) {
+  FilledCells filled{grid.locate(left), grid.locate(right)};
+  if (filled.first.s > 1.0 - rounding_of_ends) filled.first = {filled.first.cell + 1, 0.0};
+  if (filled.last.s < rounding_of_ends && filled.last.cell > filled.first.cell)
+    filled.last = {filled.last.cell - 1, 1.0};
+  return filled;
+}
+
 /// Each span is split into two halves with `PerHalf` points in each (Tielen et al. 2017 use 2 for P = 2), and
 /// a span that the material fills partly is integrated over the filled part alone. Points, weights and basis
 /// are kept per cell and computed again only where the filled part of a cell has changed.
@@ -29,10 +46,9 @@ class GaussPoints {
 
   /// Material from `left` to `right`, both inside the grid, `left` < `right`.
   void cover(const numerics::SplineSpace& grid, double left, double right) {
-    const auto from = grid.locate(left);
-    const auto to = grid.locate(right);
+    const auto [from, to] = filled_cells(grid, left, right);
     first_ = from.cell;
-    last_ = to.s > 0.0 || to.cell == first_ ? to.cell : to.cell - 1;
+    last_ = to.cell;
     for (int cell = first_; cell <= last_; ++cell) {
       const Interval part{cell == from.cell ? from.s : 0.0, cell == to.cell ? to.s : 1.0};
       if (part != filled_[static_cast<std::size_t>(cell)]) fill(grid, cell, part);

@@ -1,6 +1,17 @@
+#include <cmath>
+
 #include <hompm/scheme/particle_transfer.hpp>
 
 namespace hompm::detail {
+
+numerics::SplineSpace::Location locate_outside(const State& state, std::size_t particle) {
+  const numerics::SplineSpace& grid = state.grid;
+  const double hair = 1e-10 * grid.cell_width();
+  const double x = state.particles.position[particle];
+  if (std::abs(x - grid.origin()) < hair) return {0, 0.0};
+  if (std::abs(x - grid.breakpoint(grid.cells())) < hair) return {grid.cells() - 1, 1.0};
+  throw_left_grid(state, particle);
+}
 
 void leave_cell_without_mass(State& state, std::size_t next) {
   BasisAtParticles& basis = state.basis;

@@ -11,6 +11,10 @@
 
 namespace hompm::detail {
 
+/// Of a particle that rounding alone has put outside, such as a marker at a fixed end: the end of the grid.
+/// Throws `InvalidRun` for others.
+numerics::SplineSpace::Location locate_outside(const State& state, std::size_t particle);
+
 /// Evaluates the grid functions at the particles. Throws `InvalidRun` for a particle outside the grid.
 template <int P>
 void evaluate_basis(State& state) {
@@ -21,8 +25,8 @@ void evaluate_basis(State& state) {
   double* gradients = state.basis.gradients.data();
   const numerics::SplineSpace& grid = state.grid;
   for (std::size_t p = 0; p < count; ++p, values += P + 1, gradients += P + 1) {
-    const auto at = grid.locate(x[p]);
-    if (at.cell < 0) throw_left_grid(state, p);
+    auto at = grid.locate(x[p]);
+    if (at.cell < 0) at = locate_outside(state, p);
     first[p] = at.cell;
     grid.evaluate<P>(at, values, gradients);
   }
