@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/effects/registry.hpp>
 #include <hompm/error.hpp>
 #include <hompm/output/run_report.hpp>
 #include <hompm/scene_file/reader.hpp>
@@ -18,6 +19,7 @@
 
 namespace {
 
+using hompm::operator""_field;
 using hompm::test::contains;
 using hompm::test::message_of;
 using Keys = std::vector<std::pair<std::string, std::string>>;
@@ -218,9 +220,9 @@ TEST_CASE("fault 4: what gives energy where it can only take it is told, and sto
     hompm::RunObserver observer;
     observer.start = [energy](hompm::Simulation& simulation) {
       simulation.plan().phases[static_cast<std::size_t>(hompm::Phase::work)].push_back(
-          {.name = "gives",
-           .phase = hompm::Phase::work,
-           .run = [energy](hompm::State& state) { state.balance.dissipated -= energy; }});
+          {.name = "gives", .phase = hompm::Phase::work, .run = [energy](hompm::State& state) {
+             state.balance.dissipated -= energy;
+           }});
     };
     return observer;
   };
@@ -229,6 +231,34 @@ TEST_CASE("fault 4: what gives energy where it can only take it is told, and sto
   CHECK(contains(message_of<hompm::InvalidRun>([&] { hompm::run(scene, stepping, make(1e-3)); }),
                  "what can only take energy (walls, contact, dampings, viscosities, plasticity) gave "));
   CHECK(hompm::run(scene, stepping).warnings.empty());
+}
+
+TEST_CASE("fault 4: what one effect gives is seen though another takes more", "[faults]") {
+  hompm::EffectCatalogue effects = hompm::effect_catalogue();
+  hompm::EffectType books;
+  books.name = "books";
+  books.parameters = {{.name = "energy", .unit = "J/m^2", .meaning = "taken in a step"}};
+  books.join = [](const hompm::EffectSpec& spec, const hompm::PlanBuilder& builder) {
+    builder.add({.name = "books",
+                 .phase = hompm::Phase::work,
+                 .changes = {"balance.dissipated"_field},
+                 .run = [energy = spec.number("energy")](hompm::State& state) {
+                   state.balance.dissipated += energy;
+                 }});
+  };
+  effects.push_back(books);
+  const std::string moving =
+      linear_bar + "initial.velocity = { shape = \"linear\", amplitude = 0.0, gradient = 0.1 }\n";
+  const auto result = [&](const std::string& one, const std::string& other) {
+    const hompm::Scene scene =
+        hompm::parse_scene(moving + effect("books", "energy = " + one) + effect("books", "energy = " + other),
+                           "scene.toml", {}, effects);
+    return hompm::run(scene, hompm::time_stepping(scene));
+  };
+  CHECK(codes(result("1e-6", "2e-6").warnings).empty());
+  CHECK(codes(result("2e-6", "-1e-6").warnings) == Codes{"energy-made"});
+  CHECK(contains(message_of<hompm::InvalidRun>([&] { result("2e-3", "-1e-3"); }),
+                 "; by books; take a smaller"));
 }
 
 TEST_CASE("fault 5: loads finer than the time step are refused or told", "[faults]") {

@@ -3,6 +3,7 @@
 
 #include <hompm/error.hpp>
 #include <hompm/plan/plan.hpp>
+#include <hompm/plan/taken.hpp>
 
 namespace hompm {
 namespace {
@@ -86,6 +87,11 @@ void check_field(const std::vector<Use>& uses, Field field, const FieldInfo& inf
   }
 }
 
+/// What an effect alone has dissipated: it may not give what another takes.
+Field field_of_taken(const StageBuilder& builder, const std::string& name) {
+  return builder.field({detail::taken_by_effect, "J/m²", "by " + name, Site::body, true});
+}
+
 }  // namespace
 
 Field StageBuilder::field(const FieldInfo& info, double initial) const {
@@ -98,6 +104,15 @@ Field StageBuilder::field(const FieldInfo& info, double initial) const {
 
 void StageBuilder::add(Stage stage) const {
   stage.called_by = called_by;
+  if (called_by.starts_with("effect ") && is_in("balance.dissipated"_field, stage.changes)) {
+    const Field taken = field_of_taken(*this, stage.name);
+    stage.changes.push_back(taken);
+    stage.run = [run = std::move(stage.run), taken](State& s) {
+      const double before = s.balance.dissipated;
+      run(s);
+      s[taken].front() += s.balance.dissipated - before;
+    };
+  }
   const Phase phase = stage.phase;
   plan[phase].push_back(std::move(stage));
 }
@@ -114,6 +129,15 @@ void StageBuilder::add_total_stress() const {
 }
 
 void PairBuilder::add(Coupling coupling) const {
+  if (is_in("balance.dissipated"_field, coupling.changes[0])) {
+    const Field taken = field_of_taken(left, coupling.name);
+    coupling.changes[0].push_back(taken);
+    coupling.run = [run = std::move(coupling.run), taken](State& a, State& b) {
+      const double before = a.balance.dissipated + b.balance.dissipated;
+      run(a, b);
+      a[taken].front() += a.balance.dissipated + b.balance.dissipated - before;
+    };
+  }
   coupling.left = index;
   coupling.called_by = left.called_by;
   couplings.push_back(std::move(coupling));

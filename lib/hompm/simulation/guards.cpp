@@ -7,6 +7,7 @@
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/plan/invalid.hpp>
+#include <hompm/plan/taken.hpp>
 #include <hompm/simulation/guards.hpp>
 
 namespace hompm::detail {
@@ -57,15 +58,16 @@ void Guards::look(const Simulation& simulation) {
     row.dissipated += state.balance.dissipated;
     for (const auto& potential : simulation.plan(body).potentials) row.gravity += potential(state);
   }
-  compare(simulation.state(), row.kinetic, row);
+  compare(simulation, row.kinetic, row);
 }
 
 void Guards::check(const Simulation& simulation, const HistoryRow& row) {
   for (const State& state : simulation.states()) check_particles(state);
-  compare(simulation.state(), row.kinetic + row.stored, row);
+  compare(simulation, row.kinetic + row.stored, row);
 }
 
-void Guards::compare(const State& state, double energy, const HistoryRow& row) {
+void Guards::compare(const Simulation& simulation, double energy, const HistoryRow& row) {
+  const State& state = simulation.state();
   supplied_ = std::max({supplied_, std::abs(row.gravity), std::abs(row.external_work)});
   // What a load does in its first steps is booked with a velocity that it has yet to make.
   constexpr std::int64_t first_steps = 4;
@@ -83,11 +85,23 @@ void Guards::compare(const State& state, double energy, const HistoryRow& row) {
         "unstable: energy " + (std::isfinite(energy) ? to_text(energy) : std::string("not finite")) +
             of_what() +
             "a step that is too large for the motion, or too few particles per cell, are the usual causes");
-  if (-row.dissipated > bound)
+  if (const LeastTaken least = least_taken(simulation); least.energy < -bound)
     throw InvalidRun(state.step, state.time, -1,
                      "what can only take energy (walls, contact, dampings, viscosities, plasticity) gave " +
-                         to_text(-row.dissipated) + of_what() +
+                         to_text(-least.energy) + of_what() +
+                         (least.by.empty() ? "" : std::string(least.by) + "; ") +
                          "take a smaller time step, or more particles per cell");
+}
+
+LeastTaken least_taken(const Simulation& simulation) {
+  LeastTaken least;
+  for (const State& state : simulation.states()) least.energy += state.balance.dissipated;
+  for (const State& state : simulation.states())
+    for (const DeclaredField& field : state.declared)
+      if (field.name.starts_with("body." + std::string(taken_by_effect)) &&
+          field.values.front() < least.energy)
+        least = {field.values.front(), field.meaning};
+  return least;
 }
 
 double energy_scale(const Scene& scene, const std::vector<State>& states) {

@@ -1,6 +1,7 @@
 // Whether a run is still one that a body could do.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include <hompm/simulation/simulation.hpp>
@@ -31,12 +32,20 @@ class Guards {
   [[nodiscard]] double supplied() const { return supplied_; }
 
  private:
-  void compare(const State& state, double energy, const HistoryRow& row);
+  void compare(const Simulation& simulation, double energy, const HistoryRow& row);
 
   double start_;
   double supplied_;
   double scale_;
 };
+
+/// Of what can only take energy, all of it or an effect by itself, the least that was taken, J/m²: below 0
+/// some was given.
+struct LeastTaken {
+  double energy = 0.0;
+  std::string_view by;  ///< "by wall"; empty for all
+};
+LeastTaken least_taken(const Simulation& simulation);
 
 /// What the loads of a scene may supply, and what rounding of positions may store, J/m².
 double energy_scale(const Scene& scene, const std::vector<State>& states);

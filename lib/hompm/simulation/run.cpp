@@ -142,7 +142,6 @@ void accumulate(RunExtremes& result, const HistoryRow& row) {
   raise(result.largest_internal_force_sum, row.internal_force_sum);
   raise(result.largest_energy, row.kinetic + row.stored + std::abs(row.gravity));
   raise(result.largest_momentum, std::abs(row.momentum) + std::abs(row.impulse));
-  result.least_dissipated = std::min(result.least_dissipated, row.dissipated);
 }
 
 /// Of the bodies with a law for small strains, |λ − 1|.
@@ -209,6 +208,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
         result.end = simulation.history(time);
         guards.check(simulation, result.end);  // before anything is reported
         accumulate(result, result.end);
+        result.least_dissipated = std::min(result.least_dissipated, detail::least_taken(simulation).energy);
         Snapshot snapshot;
         if (snapshot_due) snapshot = simulation.snapshot(time);
         if (const std::string bad = not_finite(snapshot, result.end); !bad.empty())
