@@ -521,8 +521,15 @@ def refused_builds(_tools):
                  [[what, ", ".join(f"`{command}`" for command in builds)] for what, _, builds in cells.REFUSED_BUILDS])
 
 
+def random_flags(_tools):
+    """An hour: two hundred builds."""
+    done = subprocess.run([sys.executable, ROOT / "tests/reproducibility/run_flags.py"], capture_output=True, text=True, check=True)
+    rows = [line.split(maxsplit=1) for line in done.stdout.splitlines()]
+    return table(["of 200 kernels", "outcome"], [[number, outcome.split(", of")[0]] for number, outcome in rows], [0])
+
+
 PARTS = {
-    "refused-builds": refused_builds,
+    "refused-builds": refused_builds, "random-flags": random_flags,
     "schemes": schemes, "choices": choices, "cases": cases, "plan": plan, "output": output, "limits": limits, "limits-p1": limits_p1,
     "limit-map": limit_map, "long-bars": long_bars, "limit-cut": limit_cut,
     "rooms": rooms, "examples": examples,
@@ -551,7 +558,7 @@ PARTS = {
     **verification_tables.PARTS, **codes_table.PARTS,
     **high_order_tables.PARTS, **high_order_tables.SLOW_PARTS,
 }
-SLOW_PARTS = list(high_order_tables.SLOW_PARTS)
+SLOW_PARTS = ["random-flags", *high_order_tables.SLOW_PARTS]
 # What --quick leaves as it is: parts of many runs, whose bytes the golden folders hold.
 LONG_PARTS = ["long-bars", "hard-cases", "long-phases", "jumps", "bar-large", "column-large", "column-settled", "tolerances", "degrees", "reach",
               *(name for name in PARTS if name.startswith("verification-")), *high_order_tables.PARTS]
