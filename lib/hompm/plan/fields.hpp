@@ -91,8 +91,9 @@ inline constexpr auto core_fields = [] {
   });
 }();
 
-/// The core field of a name; any other name does not compile.
-consteval Field operator""_field(const char* name, std::size_t size) {
+/// The core field of a name. Any other throws `std::out_of_range` when the plan is made, as every test would
+/// show: clang++ 14 leaves calls of a consteval literal to the linker.
+constexpr Field operator""_field(const char* name, std::size_t size) {
   std::size_t index = 0;
   while (core_fields.at(index).info.name != std::string_view(name, size)) ++index;
   return {index};
