@@ -38,6 +38,9 @@ std::string tenths(double value) {
           std::to_chars(digits.begin(), digits.end(), value, std::chars_format::fixed, 1).ptr};
 }
 
+/// −log10 of a difference over the largest value; 17 where every bit agrees.
+double digits_of(double part) { return part == 0.0 ? 17.0 : std::max(0.0, -std::log10(part)); }
+
 /// The fields in their order, each once.
 std::vector<std::string> fields_of(const ForeignComparison& comparison) {
   std::vector<std::string> names;
@@ -108,10 +111,10 @@ std::string changes_text(const SchemeVariant& variant) {
 std::string variants_text(const SchemeVariants& variants, const std::string& a, const std::string& b) {
   const SchemeVariant& plain = variants.tried.front();
   std::vector<std::vector<std::string>> rows{{"scene of " + b}};
-  for (const auto& [field, digits] : plain.digits) rows.front().push_back(field);
+  for (const auto& [field, part] : plain.differences) rows.front().push_back(field);
   const auto add = [&](const SchemeVariant& variant) {
     rows.push_back({changes_text(variant)});
-    for (const auto& [field, digits] : variant.digits) rows.back().push_back(tenths(digits));
+    for (const auto& [field, part] : variant.differences) rows.back().push_back(tenths(digits_of(part)));
     rows.back().resize(rows.front().size(), "-");
   };
   constexpr std::size_t shown = 5;
@@ -127,7 +130,7 @@ std::string variants_text(const SchemeVariants& variants, const std::string& a, 
             " at X = " + rounded(plain.X) + " m\n";
   for (const auto& note : variants.notes) text += "note: " + note + "\n";
   const bool better =
-      variants.tried.size() > 1 && variants.tried[1].least_digits > std::max(1.0, plain.least_digits + 0.5);
+      variants.tried.size() > 1 && variants.tried[1].largest < std::min(0.1, plain.largest / 3.0);
   return text +
          (better ? "best: " + changes_text(variants.tried[1])
                  : "no variant agrees better than the scene as it is") +
@@ -139,9 +142,11 @@ std::string variants_json(const SchemeVariants& variants, const std::string& a, 
   for (const auto& v : variants.tried) {
     Json changes = Json::object();
     for (const auto& [key, value] : v.changes) changes[key] = value;
+    Json digits = Json::object();
+    for (const auto& [field, part] : v.differences) digits[field] = digits_of(part);
     const Json first{{"step", v.step}, {"time", v.time}, {"X", v.X}, {"field", v.field}};
     tried.push_back({{"changes", changes},
-                     {"digits", v.digits},
+                     {"digits", digits},
                      {"refused", v.refused.empty() ? Json() : Json(v.refused)},
                      {"first_difference", v.step < 0 ? Json() : first}});
   }

@@ -125,7 +125,7 @@ TEST_CASE("a vanishing cut leaves the stable step as it is") {
   const double courant = 10.0 * 16.0;  // c/h
   const double full = critical.at(start);
   const double at_once = critical.with_cut(start, 1e-3);
-  for (const double cut : {1e-1, 1e-2, 1e-3, 1e-6, 1e-9, 1e-12}) {
+  for (const double cut : {1e-1, 1e-2, 1e-3, 1e-6, 1e-9}) {
     const double limit = critical.with_cut(start, cut);
     INFO(scheme << ", " << cut << ": " << limit * courant);
     shown("cut-span", scheme, cut, limit * courant);

@@ -152,7 +152,8 @@ TEST_CASE("few sites in a cell lower the degree there, and none leave it to the 
     return std::abs(fit(at) - parabola(site) - slope * (at - site)) < 1e-14;
   };
   for (const double at : {0.1, 0.9, 1.1, 1.9}) CHECK(on_line(at, 1.2));
-  for (const double at : {2.1, 2.9}) CHECK(fit(at) == parabola(2.3));
+  // One site tells no slope: the parabola goes through those beside it, too.
+  for (const double at : {2.1, 2.9}) CHECK(std::abs(fit(at) - parabola(at)) < 1e-12);
   for (const double at : {3.1, 4.5}) CHECK(on_line(at, 3.2));
   for (const double at : {5.05, 6.5}) CHECK(std::abs(fit(at) - parabola(at)) < 1e-12);
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -17,8 +18,6 @@ using detail::ParticleBlock;
 using detail::ParticleFields;
 using detail::ParticleTable;
 using Changes = std::vector<std::pair<std::string, std::string>>;
-
-constexpr double all_bits = 17.0;  // digits of a double that agrees in every bit
 
 /// The file, and what of it lies on steps of the scene.
 struct Held {
@@ -50,7 +49,7 @@ ParticleBlock block_of(const Snapshot& snapshot) {
            snapshot.stress, snapshot.stretch}};
 }
 
-/// Digits by field, and where the two part first.
+/// Differences by field, and where the two part first.
 void compare(const Held& a, const ParticleFields& run, double time_step, double cell, double excused,
              SchemeVariant& result) {
   std::map<std::string, double> worst;
@@ -78,11 +77,11 @@ void compare(const Held& a, const ParticleFields& run, double time_step, double 
       }
     }
   }
-  result.least_digits = all_bits;
+  result.largest = 0.0;
   for (const auto& [field, part] : worst) {
-    const double digits = part == 0.0 ? all_bits : std::isnan(part) ? 0.0 : std::max(0.0, -std::log10(part));
-    result.digits[field] = digits;
-    result.least_digits = std::min(result.least_digits, digits);
+    const double difference = std::isnan(part) ? std::numeric_limits<double>::infinity() : part;
+    result.differences[field] = difference;
+    result.largest = std::max(result.largest, difference);
   }
 }
 
@@ -160,12 +159,12 @@ SchemeVariants scheme_variants(const std::filesystem::path& a, const std::filesy
   result.tried.push_back(try_out(scene, {}, held));
   std::set<std::string> seen{scene_text(scene)};  // the same scene is run once
   const auto best = [&] {
-    return *std::ranges::max_element(result.tried, {}, [](const auto& v) { return v.least_digits; });
+    return *std::ranges::min_element(result.tried, {}, [](const auto& v) { return v.largest; });
   };
   constexpr std::size_t most_changes = 3;
-  constexpr double gain = 0.2;     // digits: of two causes of one size, the first to go halves the difference
-  constexpr double enough = 11.0;  // digits: what other orders of the same sums leave
-  for (std::size_t round = 1; round <= most_changes && best().least_digits < enough; ++round) {
+  constexpr double gain = 0.63;  // a fifth of a digit: of two causes of one size, the first to go halves it
+  constexpr double enough = 1e-11;  // what other orders of the same sums leave
+  for (std::size_t round = 1; round <= most_changes && best().largest > enough; ++round) {
     const SchemeVariant from = best();
     if (from.changes.size() + 1 != round) break;  // the last change gave nothing
     const Changes more = neighbours(load(from.changes));
@@ -186,13 +185,13 @@ SchemeVariants scheme_variants(const std::filesystem::path& a, const std::filesy
         result.tried.pop_back();
       }
     }
-    if (best().least_digits < from.least_digits + gain) break;
+    if (best().largest > from.largest * gain) break;
   }
   // Where A leaves the scene as it is, by more than it leaves the variant that it agrees with.
-  if (const double digits = best().least_digits; digits > 6.0 && result.tried.front().refused.empty())
-    result.tried.front() = try_out(scene, {}, held, std::max(1e-12, std::pow(10.0, 1.0 - digits)));
+  if (const double largest = best().largest; largest < 1e-6 && result.tried.front().refused.empty())
+    result.tried.front() = try_out(scene, {}, held, std::max(1e-12, 10.0 * largest));
   std::stable_sort(result.tried.begin() + 1, result.tried.end(),
-                   [](const auto& one, const auto& other) { return one.least_digits > other.least_digits; });
+                   [](const auto& one, const auto& other) { return one.largest < other.largest; });
   result.notes = notes.messages();
   for (const auto& fault : faults.messages()) result.notes.push_back(fault);
   return result;

@@ -17,10 +17,10 @@ namespace hompm {
 /// The scene with some keys of its scheme changed, and how far the file agrees with its run.
 struct SchemeVariant {
   std::vector<std::pair<std::string, std::string>> changes = {};  ///< key and value; none: the scene as it is
-  std::string refused = {};                   ///< why it could not be run to its end; "" where it was
-  std::map<std::string, double> digits = {};  ///< by field: −log10 of the largest difference over the largest
-                                              ///< value of the run, at all times; 17 where every bit agrees
-  double least_digits = 0.0;  ///< of these
+  std::string refused = {};  ///< why it could not be run to its end; "" where it was
+  /// By field: the largest difference over the largest value of the run, at all times.
+  std::map<std::string, double> differences = {};
+  double largest = 1.0;  ///< of these; infinite where a value is not known
   /// Where the file leaves the run: the first step at which a field differs by more than 1e-9 of its largest
   /// value, or, of the scene as it is, ten times what the best variant differs by (1e-12 at least); step −1
   /// where there is none.
