@@ -55,7 +55,7 @@ Content content_of(const toml::node& node) {
     case toml::node_type::string:
       return node.as_string()->get();
     case toml::node_type::table:
-      return Table{};
+      return TomlTable{};
     case toml::node_type::array:
       return Array{};
     default:
