@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <hompm/plan/plan.hpp>
@@ -13,11 +12,12 @@ namespace hompm::detail {
 /// of balance so far and `velocity` is that of the last projection; `reads` are those that it takes. Books
 /// its impulse, and the energy −f·v Δt it takes once the velocity of the step is known.
 template <class Force>
-void join_grid_damping(const PlanBuilder& builder, const std::string& name, Fields reads, Force force_of) {
+void join_grid_damping(const PlanBuilder& builder, const std::string& name, const Fields& reads,
+                       Force force_of) {
   const Field damping = builder.field({"damping_force", "Pa", "of " + name, Site::function});
   builder.add({.name = name,
                .phase = Phase::damping_force,
-               .reads = std::move(reads),
+               .reads = reads,
                .changes = {"grid.force"_field, "balance.impulse"_field},
                .writes = {damping},
                .run = [damping, force_of](State& state) {
