@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <hompm/plan/plan.hpp>
+#include <hompm/plan/tied_functions.hpp>
 #include <hompm/scheme/least_squares.hpp>
 #include <hompm/scheme/reconstruction.hpp>
 #include <hompm/scheme/transfer.hpp>
@@ -78,7 +79,7 @@ inline double share_of_reaction(const SchemeChoices& choices) {
 
 /// What a scheme of splines or hat functions is: P + 1 functions reach a particle.
 template <int P>
-class Discretised final : public Discretisation {
+class Discretised final : public Discretisation, public TiedFunctions {
  public:
   Discretised(const StageBuilder& builder, Own<Reconstruction> splines, Own<LeastSquares<P>> least_squares,
               std::shared_ptr<const AffineVelocity<P>> affine)
@@ -109,6 +110,7 @@ class Discretised final : public Discretisation {
     return choices_.acceleration_mass == MassForm::lumped ? divide_impulses(state, impulses)
                                                           : splines_.of(state).solve(impulses);
   }
+  void untie(State& state, std::vector<double>& forces) const override { splines_.of(state).untie(forces); }
   [[nodiscard]] bool keeps_momentum() const override {
     return choices_.velocity_projection != VelocityProjection::least_squares &&
            choices_.sequence == Sequence::musl;
