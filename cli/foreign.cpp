@@ -66,8 +66,8 @@ ForeignOptions read_options(const po::variables_map& given) {
 /// Which variant of the scheme A agrees with.
 int tell_variants(const po::variables_map& given, const std::filesystem::path& table, const std::string& a,
                   const std::string& b, const ForeignOptions& options) {
-  for (const char* option :
-       {"absolute", "relative", "ulps", "exact", "time", "interpolate", "submit", "picture"})
+  for (const char* option : {"absolute", "relative", "ulps", "exact", "time", "time-tolerance", "fields",
+                             "interpolate", "submit", "picture"})
     if (given.count(option) > 0)
       throw UsageError("--which tells digits at all times of A: it takes no --" + std::string(option));
   SchemeVariants variants;
@@ -97,7 +97,7 @@ void submit(const std::string& folder, const std::filesystem::path& table, const
        {"run", results ? "--scene golden/" + name + "/scene.toml --snapshots 2" : "--scene " + b.string()},
        {"ns_per_particle_and_step", nullptr}}};
   std::ostringstream text;
-  text << std::ifstream(table).rdbuf();
+  if (!(text << std::ifstream(table).rdbuf())) throw FileError("cannot read " + table.string());
   detail::StagingFolder made(folder);
   made.replace("results.csv", text.str());
   made.replace("code.json",

@@ -111,7 +111,8 @@ std::string changes_text(const SchemeVariant& variant) {
 std::string variants_text(const SchemeVariants& variants, const std::string& a, const std::string& b) {
   const SchemeVariant& plain = variants.tried.front();
   std::vector<std::vector<std::string>> rows{{"scene of " + b}};
-  for (const auto& [field, part] : plain.differences) rows.front().push_back(field);
+  const SchemeVariant& shown_first = plain.refused.empty() ? plain : variants.tried.back();
+  for (const auto& [field, part] : shown_first.differences) rows.front().push_back(field);
   const auto add = [&](const SchemeVariant& variant) {
     rows.push_back({changes_text(variant)});
     for (const auto& [field, part] : variant.differences) rows.back().push_back(tenths(digits_of(part)));

@@ -28,6 +28,7 @@ def read_codes():
 def compared(tools, file, options):
     """{field: (digits of agreement with the run of hompm, largest error against the exact solution or None)}"""
     folder = tempfile.mkdtemp(dir=tools.work)
+    options = [str(ROOT / word) if word.startswith("golden/") else word for word in options]
     tools.text(*options, "--no-vtk", "--quiet", "--output", folder)
     # Karamelo's dumps do not have the start: only the times that both have.
     times = sorted({line.split(",")[0] for line in file.read_text().splitlines()[1:]}, key=float)

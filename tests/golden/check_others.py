@@ -92,6 +92,20 @@ def main():
         text = call(tools / "hompm-diff", "--which", OTHERS / "classical-python/bar-small_64x4.csv", ROOT / "golden/bar-small-classical")
         if not text.endswith("no variant agrees better than the scene as it is\n"):
             wrong.append(f"--which of a code that agrees to rounding: {text}")
+        # Other particles: nothing can be told.
+        done = subprocess.run([tools / "hompm-diff", "--which", OTHERS / "bspline-mpm-1d/bar-small_16x4_deg1.csv", ROOT / "golden/bar-small-classical"],
+                              capture_output=True, text=True, check=False)
+        if done.returncode != 5 or "no particle has the X" not in done.stderr:
+            wrong.append(f"--which with other particles: {done.returncode}: {done.stdout}{done.stderr}")
+        made = pathlib.Path(work) / "submitted"
+        submit = ["--relative", "all=1e-9", "--submit", made, OTHERS / "classical-python/bar-small_64x4.csv", ROOT / "golden/bar-small-classical"]
+        call(tools / "hompm-diff", *submit)
+        code = json.loads((made / "code.json").read_text())
+        if code["code"] != "" or code["results"][0]["run"] != "--scene golden/bar-small-classical/scene.toml --snapshots 2" or \
+                (made / "results.csv").read_bytes() != (OTHERS / "classical-python/bar-small_64x4.csv").read_bytes():
+            wrong.append(f"--submit makes {code}")
+        if subprocess.run([tools / "hompm-diff", *submit], capture_output=True, check=False).returncode != 2:
+            wrong.append("--submit takes a folder that is there")
     for complaint in wrong:
         print(complaint, file=sys.stderr)
     return 1 if wrong else 0

@@ -52,6 +52,7 @@ ParticleBlock block_of(const Snapshot& snapshot) {
 /// Differences by field, and where the two part first.
 void compare(const Held& a, const ParticleFields& run, double time_step, double cell, double excused,
              SchemeVariant& result) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
   std::map<std::string, double> worst;
   for (std::size_t t = 0; t < run.blocks.size(); ++t) {
     const ParticleBlock& theirs = run.blocks[t];
@@ -59,15 +60,16 @@ void compare(const Held& a, const ParticleFields& run, double time_step, double 
         a.fields.blocks, {}, [&](const auto& block) { return std::abs(block.time - theirs.time); });
     const auto t_a = static_cast<std::size_t>(mine - a.fields.blocks.begin());
     const auto pairs = detail::match_particles(a.table, *mine, theirs, cell, false);
-    double furthest = result.step < 0 ? excused : std::numeric_limits<double>::infinity();
+    double furthest = result.step < 0 ? excused : unknown;
     for (const auto& field : a.fields.names) {
       if (field == "x" && a.fields.has("displacement")) continue;  // the displacement tells more
       const double scale = run.largest(field);
       double& most = worst[field];
+      if (pairs.empty()) most = unknown;  // nothing was looked at
       for (const auto& [i, j] : pairs) {
         const double part =
             std::abs(a.fields.values(field, t_a)[i] - run.values(field, t)[j]) / (scale > 0.0 ? scale : 1.0);
-        if (!(part <= most)) most = part;  // NaN stays
+        most = std::max(most, std::isnan(part) ? unknown : part);
         if (part <= furthest) continue;
         furthest = part;
         result.step = std::llround(theirs.time / time_step);
@@ -77,12 +79,9 @@ void compare(const Held& a, const ParticleFields& run, double time_step, double 
       }
     }
   }
-  result.largest = 0.0;
-  for (const auto& [field, part] : worst) {
-    const double difference = std::isnan(part) ? std::numeric_limits<double>::infinity() : part;
-    result.differences[field] = difference;
-    result.largest = std::max(result.largest, difference);
-  }
+  result.largest = worst.empty() ? unknown : 0.0;
+  for (const auto& [field, part] : worst) result.largest = std::max(result.largest, part);
+  result.differences = std::move(worst);
 }
 
 /// Runs the scene and holds A against it at the times that both have; `excused`, of the largest value, is no
@@ -93,6 +92,10 @@ SchemeVariant try_out(Scene scene, Changes changes, const Held& a, double excuse
   std::vector<double> times;
   for (const double time : a.times)
     if (on_part(time, scene.end_time, static_cast<double>(stepping.steps))) times.push_back(time);
+  if (times.empty()) {
+    result.refused = "none of its steps ends at a time of A";
+    return result;
+  }
   scene.output.snapshots = static_cast<int>(snapshots_for(times, scene.end_time, stepping.steps));
   ParticleFields fields{detail::particle_fields(), {}};
   RunObserver observer;
@@ -157,6 +160,11 @@ SchemeVariants scheme_variants(const std::filesystem::path& a, const std::filesy
 
   SchemeVariants result{.times = held.times};
   result.tried.push_back(try_out(scene, {}, held));
+  const auto matched = [](const auto& part) { return part.second < std::numeric_limits<double>::infinity(); };
+  if (const SchemeVariant& plain = result.tried.front();
+      plain.refused.empty() && std::ranges::none_of(plain.differences, matched))
+    throw FileError("cannot tell variants by " + (options.name.empty() ? a.string() : options.name) +
+                    ": no particle has the X of one of the scene, or no value is a number");
   std::set<std::string> seen{scene_text(scene)};  // the same scene is run once
   const auto best = [&] {
     return *std::ranges::min_element(result.tried, {}, [](const auto& v) { return v.largest; });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,7 +21,7 @@ struct SchemeVariant {
   std::string refused = {};  ///< why it could not be run to its end; "" where it was
   /// By field: the largest difference over the largest value of the run, at all times.
   std::map<std::string, double> differences = {};
-  double largest = 1.0;  ///< of these; infinite where a value is not known
+  double largest = std::numeric_limits<double>::infinity();  ///< of these; infinite where one is not known
   /// Where the file leaves the run: the first step at which a field differs by more than 1e-9 of its largest
   /// value, or, of the scene as it is, ten times what the best variant differs by (1e-12 at least); step −1
   /// where there is none.
@@ -41,8 +42,8 @@ struct SchemeVariants {
 /// scheme, its degree, its time step and its law changed by itself; from the best of these again while a
 /// further change gives a fifth of a digit more, three changes at most. A is held against each run at the
 /// times of `a` that lie on steps (twenty at most, of the first and last). `options` says how to read A.
-/// `progress` is told how many of how many runs are done. Throws `FileError`, `SceneError`; `OptionError`
-/// where no time of A lies on a step of the scene or it runs to rest.
+/// `progress` is told how many of how many runs are done. Throws `FileError`, where no particle is that of A,
+/// too; `SceneError`; `OptionError` where no time of A lies on a step of the scene or it runs to rest.
 SchemeVariants scheme_variants(const std::filesystem::path& a, const std::filesystem::path& b,
                                const ForeignOptions& options,
                                const std::function<void(std::int64_t, std::int64_t)>& progress = {});
