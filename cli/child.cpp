@@ -5,13 +5,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
-#include <filesystem>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
-#include <hompm/error.hpp>
+#include <hompm/study/record.hpp>
 
 namespace hompm::cli {
 
@@ -55,6 +54,19 @@ int run_child(std::vector<std::string> command, const std::string& out, const st
     throw;
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::optional<std::string> run_gnuplot(const std::string& script) {
+  const Scratch scratch;
+  const auto file = [&](const char* name) { return scratch.path() + "/" + name; };
+  study::write_whole(file("script"), script);
+  // -d: none of the user's settings, the same picture for everybody.
+  const int code = run_child({"gnuplot", "-d", file("script")}, file("out"), file("log"), [] {});
+  if (code == no_such_program) return std::nullopt;
+  if (code == 0) return read_file(file("out"));
+  std::string said = read_file(file("log")).substr(0, 300);
+  std::ranges::replace(said, '\n', ' ');
+  throw FileError("gnuplot failed: " + said);
 }
 
 }  // namespace hompm::cli

@@ -1,7 +1,8 @@
-// Other programs that a tool runs.
+// Other programs that a tool runs, gnuplot among them.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,9 @@ inline constexpr int no_such_program = 127;
 /// while waiting; what it throws ends the child.
 int run_child(std::vector<std::string> command, const std::string& out, const std::string& log,
               const std::function<void()>& check);
+
+/// What gnuplot writes to standard output for `script`; nothing when it is not installed. Throws `FileError`
+/// with what gnuplot says when it fails.
+std::optional<std::string> run_gnuplot(const std::string& script);
 
 }  // namespace hompm::cli

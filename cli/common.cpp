@@ -1,5 +1,7 @@
 #include "common.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -7,17 +9,80 @@
 #include <fcntl.h>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <system_error>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include <hompm/build_info.hpp>
-#include <hompm/error.hpp>
-#include <hompm/scene_file/content.hpp>
 #include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 
-#include "text_table.hpp"
+namespace hompm::cli {
+
+std::string text_table(const std::vector<std::vector<std::string>>& rows, std::size_t names) {
+  std::vector<std::size_t> width(rows.empty() ? 0 : rows.front().size());
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(width[i] - row[i].size(), ' ');
+      line += (i == 0 ? "" : "  ") + (i < names ? row[i] + padding : padding + row[i]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+namespace {
+
+/// Columns that UTF-8 takes on a terminal: its bytes that continue no character.
+std::size_t columns(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string padded(std::string text, std::size_t width) {
+  const std::size_t now = columns(text);
+  if (now >= width) return text + (text.empty() ? "" : " ");
+  return text.append(width - now, ' ');
+}
+
+std::string wrapped(const std::string& head, std::size_t indent, const std::string& text) {
+  std::string all;
+  std::string line = padded(head, indent);
+  std::istringstream words(text);
+  const char* blank = "";
+  for (std::string word; words >> word; blank = " ") {
+    if (*blank != '\0' && columns(line) + 1 + columns(word) > 80) {
+      all += line + "\n";
+      line.assign(indent, ' ');
+      blank = "";
+    }
+    line += blank + word;
+  }
+  return all + line + "\n";
+}
+
+std::string hex(std::uint64_t word) {
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(word));
+  return digits.data();
+}
+
+std::string rounded(double value) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 32> buffer{};
+  char* const begin = buffer.data();
+  const auto end = std::to_chars(begin, begin + buffer.size(), value, std::chars_format::general, 3).ptr;
+  return {begin, end};
+}
+
+}  // namespace hompm::cli
 
 namespace hompm {
 
@@ -176,6 +241,12 @@ std::int64_t parse_steps(const std::string& text, const std::string& option, std
   if (read_whole(text, number) && number >= least) return number;
   throw UsageError(option + " " + text + ": expected a number of steps, a whole number of at least " +
                    std::to_string(least));
+}
+
+std::pair<std::string, std::string> key_and_value(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals != std::string::npos && equals > 0) return {text.substr(0, equals), text.substr(equals + 1)};
+  throw UsageError("--set " + text + ": expected KEY=VALUE, as in --set scheme.cells=32");
 }
 
 void warn(const std::string& message) { std::cerr << "hompm-run: warning: " << message << std::endl; }

@@ -1,15 +1,34 @@
-// What the command-line tools share: exit codes, options, numbers, the frame around main.
+// What the command-line tools share: exit codes, options, numbers, columns of text, the frame around main.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boost/program_options.hpp>
 
 namespace hompm::cli {
+
+/// One line per row, the columns two blanks apart; the first `names` columns are flush left, the others flush
+/// right. All rows must be as long as the first.
+std::string text_table(const std::vector<std::vector<std::string>>& rows, std::size_t names);
+
+/// `text`, filled up with blanks to `width` columns; at least one, unless it is empty and `width` is 0.
+std::string padded(std::string text, std::size_t width);
+
+/// The words of `text` in lines of at most 80 columns: `head` before those of the first line, all words from
+/// the column `indent` on, or behind a longer head.
+std::string wrapped(const std::string& head, std::size_t indent, const std::string& text);
+
+/// Three digits, in every locale; "-" for what is not finite.
+std::string rounded(double value);
+
+/// Sixteen digits.
+std::string hex(std::uint64_t word);
 
 /// What a tool hands back to the shell.
 enum ExitCode {
@@ -32,6 +51,16 @@ class UsageError : public std::runtime_error {
 struct CommandLine {
   boost::program_options::variables_map options;
   std::vector<std::string> arguments;  ///< what is not an option, in order
+
+  [[nodiscard]] bool has(const std::string& option) const { return options.count(option) > 0; }
+  /// The value of an option; "" where it was not given.
+  [[nodiscard]] std::string text(const std::string& option) const {
+    return has(option) ? options[option].as<std::string>() : "";
+  }
+  /// The values of one that may be given more than once.
+  [[nodiscard]] std::vector<std::string> texts(const std::string& option) const {
+    return has(option) ? options[option].as<std::vector<std::string>>() : std::vector<std::string>();
+  }
 };
 
 /// The whole of `text` as a finite number. Throws `UsageError`, which begins with `where`, for anything else,
@@ -43,6 +72,9 @@ std::uint64_t parse_count(const std::string& text, const std::string& where);
 /// The whole of `text` as a number of steps of at least `least`. Throws `UsageError`, which begins with
 /// `option` and `text`.
 std::int64_t parse_steps(const std::string& text, const std::string& option, std::int64_t least);
+
+/// KEY=VALUE of --set, taken apart. Throws `UsageError`.
+std::pair<std::string, std::string> key_and_value(const std::string& text);
 
 /// One line on standard error that is not the end: "hompm-run: warning: <message>".
 void warn(const std::string& message);

@@ -7,16 +7,12 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <sstream>
-#include <string_view>
 #include <unistd.h>
 #include <utility>
-#include <vector>
 #include <zlib.h>
 
 #include <boost/property_tree/ptree.hpp>
@@ -413,13 +409,12 @@ TableFile::TableFile(const std::string& name, char direction, double step)
   const bool vtk = begins("<");
   const bool dump = begins("ITEM:");
   if (again && !compressed && (vtk || dump)) text = contents(name, all);
-  if (vtk) {
+  if (vtk)
     spool(table_of_vtk(name_, text, direction));
-  } else if (dump) {
+  else if (dump)
     spool(table_of_dump(name_, text, step));
-  } else if (!again || compressed) {
+  else if (!again || compressed)
     spool(text);
-  }
 }
 
 void TableFile::spool(const std::string& text) {

@@ -1,19 +1,10 @@
 #include "foreign_picture.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <map>
-#include <vector>
-
 #include <hompm/number.hpp>
 #include <hompm/output/staging.hpp>
 
+#include "child.hpp"
 #include "common.hpp"
-#include "gnuplot.hpp"
-#include "text_table.hpp"
 
 namespace hompm::cli {
 namespace {

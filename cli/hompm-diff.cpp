@@ -4,30 +4,24 @@
 //   Compares particles.csv, stress.csv and history.csv of folder A with those of folder B, bit for bit, and
 //   scene.toml as text. Tolerances have to be asked for, field by field or for `all` of them. Says where the
 //   two differ first and where each field differs most. The exit code tells the verdict: 0 identical or
-//   equivalent, 3 different. Where A is a file, see foreign.hpp.
+//   equivalent, 3 different. Where A is a file, see diff_options.hpp.
 
-#include <filesystem>
 #include <iostream>
-#include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include <hompm/verify/compare.hpp>
+#include <hompm/output/staging.hpp>
 
-#include "bounds.hpp"
-#include "common.hpp"
-#include "comparison_text.hpp"
-#include "foreign.hpp"
-#include "trace_diff.hpp"
+#include "diff_options.hpp"
+#include "findings.hpp"
+#include "foreign_formats.hpp"
+#include "foreign_picture.hpp"
+#include "interruption.hpp"
 
+namespace hompm::cli {
 namespace {
 
-namespace po = boost::program_options;
-
-using Words = std::vector<std::string>;
-
-hompm::cli::Tool this_tool() {
+Tool this_tool() {
   return {
       .name = "hompm-diff",
       .usage = "[options] A B",
@@ -49,7 +43,7 @@ hompm::cli::Tool this_tool() {
                   "when A is a file of another code",
                   {"hompm-diff --exact all=2e-2 --time 2.5 mine.csv golden/bar-small-bspline",
                    "hompm-diff --picture mine.svg mine.csv golden/bar-small-bspline"},
-                  hompm::cli::foreign_options()},
+                  foreign_options()},
                  {"traces",
                   "where two runs part",
                   {"hompm-diff --trace mine.trace theirs.trace"},
@@ -68,83 +62,109 @@ hompm::cli::Tool this_tool() {
       .takes_arguments = true};
 }
 
-nlohmann::ordered_json json(const hompm::Difference& d) {
-  nlohmann::ordered_json object{{"file", d.file}, {"field", d.field}, {"time", d.time}};
-  if (d.particle >= 0) object["particle"] = d.particle;
-  object.update({{"a", d.a}, {"b", d.b}, {"ulps", d.ulps}});
-  return object;
+template <class Found>
+void print(const CommandLine& given, const Found& found) {
+  if (given.has("json"))
+    std::cout << json_of(found, given.arguments[0], given.arguments[1]);
+  else if (!given.has("quiet"))
+    std::cout << text_of(found);
 }
 
-void print_json(const Words& folders, const hompm::Comparison& comparison) {
-  auto fields = nlohmann::ordered_json::array();
-  for (const auto& f : comparison.fields) {
-    fields.push_back({{"file", f.file},
-                      {"field", f.field},
-                      {"values", f.values},
-                      {"differing", f.differing},
-                      {"beyond", f.beyond},
-                      {"worst", f.differing > 0 ? json(f.worst) : nlohmann::ordered_json()}});
+/// Which variant of the scheme A agrees with.
+void tell_variants(const CommandLine& given, const std::filesystem::path& table, const std::string& a,
+                   const std::string& b, const ForeignOptions& options) {
+  for (const char* option : {"absolute", "relative", "ulps", "exact", "time", "time-tolerance", "fields",
+                             "interpolate", "submit", "picture"})
+    if (given.has(option))
+      throw UsageError("--which tells digits at all times of A: it takes no --" + std::string(option));
+  SchemeVariants variants;
+  {
+    ProgressBar bar(given.has("quiet"), "variants");
+    variants = scheme_variants(table, b, options, [&](auto done, auto all) { bar.update(done, all); });
   }
-  const nlohmann::ordered_json object{
-      {"verdict", to_string(comparison.verdict)},
-      {"a", folders[0]},
-      {"b", folders[1]},
-      {"messages", comparison.messages},
-      {"notes", comparison.notes},
-      {"first", comparison.first ? json(*comparison.first) : nlohmann::ordered_json()},
-      {"fields", fields}};
-  // Folder names may be any bytes.
-  std::cout << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+  if (given.has("json"))
+    std::cout << json_of(variants, a, b);
+  else if (!given.has("quiet"))
+    std::cout << text_of(variants, a, b);
 }
 
-int compare(const po::variables_map& given, const Words& folders) {
-  // 1. Read the command line.
-  if (folders.size() != 2) {
-    throw hompm::cli::UsageError("two folders to compare are needed, not " + std::to_string(folders.size()));
+/// A new folder for golden/others: the table, and what its author has to say of it, to be filled in.
+void submit(const std::string& folder, const std::filesystem::path& table, const std::filesystem::path& b) {
+  std::error_code none;
+  if (std::filesystem::exists(folder, none)) throw UsageError("--submit " + folder + ": it is there already");
+  const bool results = std::filesystem::is_directory(b, none);
+  const std::string name = (results ? (b / "").parent_path() : b).filename().string();
+  nlohmann::ordered_json code;
+  for (const char* word : {"code", "authors", "version", "language", "settings", "machine", "ran_by"})
+    code[word] = "";
+  code["results"] = {
+      {{"file", "results.csv"},
+       {"case", name},
+       {"run", results ? "--scene golden/" + name + "/scene.toml --snapshots 2" : "--scene " + b.string()},
+       {"ns_per_particle_and_step", nullptr}}};
+  detail::StagingFolder made(folder);
+  made.replace("results.csv", read_file(table));
+  made.replace("code.json",
+               code.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+/// Of a file of another code.
+Verdict compare_file(const CommandLine& given, const std::string& file, const std::string& folder) {
+  ForeignOptions options = read_foreign_options(given);
+  options.name = file == "-" ? "standard input" : file;
+  const std::string picture = given.text("picture");
+  if (given.has("picture")) require_picture_name(picture);
+  try {
+    const TableFile table(file, options.direction, seconds(given, "time-step"));
+    if (given.has("which")) {
+      tell_variants(given, table.path(), file, folder, options);
+      return Verdict::identical;
+    }
+    const ForeignComparison found = compare_foreign(table.path(), folder, options);
+    if (given.has("submit")) submit(given.text("submit"), table.path(), folder);
+    print(given, found);
+    const std::string obstacle = given.has("picture") ? draw_picture(found, picture) : "";
+    if (!obstacle.empty()) std::cerr << "hompm-diff: no picture: " << obstacle << '\n';
+    return found.verdict;
+  } catch (const OptionError& error) {
+    throw UsageError(error.what());
   }
-  if (given.count("quiet") > 0 && given.count("json") > 0) {
-    throw hompm::cli::UsageError("--quiet and --json contradict each other");
-  }
-  if (given.count("trace") > 0) {
-    for (const char* bound : {"absolute", "relative", "ulps"})
-      if (given.count(bound) > 0)
-        throw hompm::cli::UsageError("--trace compares bits: it takes no --" + std::string(bound));
-    hompm::cli::refuse_foreign_options(given);
-    using hompm::cli::Report;
-    return hompm::cli::diff_traces(folders[0], folders[1],
-                                   given.count("json") > 0    ? Report::json
-                                   : given.count("quiet") > 0 ? Report::none
-                                                              : Report::text);
-  }
+}
+
+Verdict compare(const CommandLine& given) {
+  const auto& names = given.arguments;
+  if (names.size() != 2)
+    throw UsageError("two folders to compare are needed, not " + std::to_string(names.size()));
+  if (given.has("quiet") && given.has("json")) throw UsageError("--quiet and --json contradict each other");
   std::error_code missing;  // then it is nothing, and reading it says why
-  if (!std::filesystem::is_directory(folders[0], missing)) {
-    return hompm::cli::compare_csv(given, folders[0], folders[1]);
+  const auto is_folder = [&](const std::string& name) {
+    return std::filesystem::is_directory(name, missing);
+  };
+  if (!given.has("trace") && !is_folder(names[0])) return compare_file(given, names[0], names[1]);
+  if (given.has("trace"))
+    for (const char* bound : {"absolute", "relative", "ulps"})
+      if (given.has(bound)) throw UsageError("--trace compares bits: it takes no --" + std::string(bound));
+  refuse_foreign_options(given);
+  if (given.has("trace")) {
+    const TraceComparison found = compare_traces(names[0], names[1]);
+    print(given, found);
+    return found.identical ? Verdict::identical : Verdict::different;
   }
-  hompm::cli::refuse_foreign_options(given);
-  if (std::filesystem::exists(folders[1], missing) && !std::filesystem::is_directory(folders[1], missing)) {
-    throw hompm::cli::UsageError(
-        folders[1] + " is a file, " + folders[0] +
-        " a folder: a file of another code comes first, what it is held against second");
-  }
-  const auto tolerances = hompm::cli::read_tolerances(given, hompm::compared_fields());
-
-  // 2. Compare.
-  auto comparison = hompm::compare_folders(folders[0], folders[1], tolerances);
-  hompm::compare_scenes(folders[0], folders[1], comparison);
-
-  // 3. Report.
-  if (given.count("json") > 0) {
-    print_json(folders, comparison);
-  } else if (given.count("quiet") == 0) {
-    std::cout << hompm::cli::comparison_text(comparison);
-  }
-  return comparison.verdict == hompm::Verdict::different ? hompm::cli::different : hompm::cli::success;
+  if (std::filesystem::exists(names[1], missing) && !is_folder(names[1]))
+    throw UsageError(names[1] + " is a file, " + names[0] +
+                     " a folder: a file of another code comes first, what it is held against second");
+  Comparison found = compare_folders(names[0], names[1], read_tolerances(given, compared_fields()));
+  compare_scenes(names[0], names[1], found);
+  print(given, found);
+  return found.verdict;
 }
 
 }  // namespace
+}  // namespace hompm::cli
 
 int main(int argc, char** argv) {
-  return hompm::cli::run_tool(this_tool(), argc, argv, [](const auto& command_line) {
-    return compare(command_line.options, command_line.arguments);
+  using namespace hompm::cli;
+  return run_tool(this_tool(), argc, argv, [](const CommandLine& given) {
+    return compare(given) == hompm::Verdict::different ? different : success;
   });
 }

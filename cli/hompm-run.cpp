@@ -4,27 +4,15 @@
 // output folder, and prints errors against the reference solution and the balances. With --check the scene of
 // a golden folder is run and the result compared with it. Sample runs: below, in the topics of --help.
 #include <iostream>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include <boost/program_options.hpp>
-
-#include <hompm/recorder/checkpoint.hpp>
-
-#include "common.hpp"
 #include "interruption.hpp"
 #include "listing.hpp"
-#include "scene_choice.hpp"
 #include "scene_run.hpp"
 
+namespace hompm::cli {
 namespace {
 
-namespace po = boost::program_options;
-
-hompm::cli::Tool this_tool() {
+Tool this_tool() {
   return {
       .name = "hompm-run",
       .usage = "--case NAME|--scene FILE|--check DIR|--resume FILE [options]",
@@ -85,23 +73,24 @@ hompm::cli::Tool this_tool() {
           "compute as IEEE 754 says, 128 + n stopped by signal n.\n"};
 }
 
-int run(const po::variables_map& given) {
-  if (given.count("list") || given.count("keys")) {
-    const auto form = given.count("json") > 0 ? hompm::cli::Form::json : hompm::cli::Form::text;
-    std::cout << (given.count("list") ? hompm::cli::catalogue(form) : hompm::cli::key_reference(form));
-    return hompm::cli::success;
+int run(const CommandLine& given) {
+  if (given.has("list") || given.has("keys")) {
+    const auto form = given.has("json") ? Form::json : Form::text;
+    std::cout << (given.has("list") ? catalogue(form) : key_reference(form));
+    return success;
   }
-  std::optional<hompm::Checkpoint> from;
-  if (given.count("resume")) from = hompm::read_checkpoint(given["resume"].as<std::string>());
-  hompm::Scene scene = from ? hompm::cli::resumed_scene(given, *from) : hompm::cli::scene_of(given);
-  if (given.count("check")) hompm::cli::demand_same_scene(scene, given);
-  return hompm::cli::run_scene(std::move(scene), given, std::move(from));
+  std::optional<Checkpoint> from;
+  if (given.has("resume")) from = read_checkpoint(given.text("resume"));
+  Scene scene = from ? resumed_scene(given, *from) : scene_of(given);
+  if (given.has("check")) demand_same_scene(scene, given);
+  return run_scene(std::move(scene), given, std::move(from));
 }
 
 }  // namespace
+}  // namespace hompm::cli
 
 int main(int argc, char** argv) {
-  hompm::cli::catch_interruption("hompm-run");
-  return hompm::cli::run_tool(this_tool(), argc, argv,
-                              [](const auto& command_line) { return run(command_line.options); });
+  using namespace hompm::cli;
+  catch_interruption("hompm-run");
+  return run_tool(this_tool(), argc, argv, run);
 }

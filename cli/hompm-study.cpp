@@ -1,39 +1,30 @@
 // hompm-study: what accuracy costs.
 //
-// Description:   Runs one scene with many settings, judges every run by the reference solution, counts what
-// it
-//                costs, and says which setting is the cheapest for an error. A study is a list of independent
-//                points; --list, --point, --times and --gather are its parts, for a workflow engine.
-#include <filesystem>
+// Description:
+//   Runs one scene with many settings, judges every run by the reference solution, counts what it costs, and
+//   says which setting is the cheapest for an error. A study is a list of independent points; --list,
+//   --point,
+//   --times and --gather are its parts, for a workflow engine.
 #include <iostream>
-#include <string>
 #include <thread>
 
-#include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
 
-#include <hompm/error.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/study/answers.hpp>
 #include <hompm/study/measure.hpp>
-#include <hompm/study/tables.hpp>
 
-#include "callgrind.hpp"
 #include "common.hpp"
 #include "interruption.hpp"
-#include "study_files.hpp"
 #include "study_run.hpp"
 
+namespace hompm::cli {
 namespace {
 
-using hompm::cli::StudyJob;
-using hompm::cli::UsageError;
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
-namespace study = hompm::study;
 using Json = nlohmann::ordered_json;
 
-hompm::cli::Tool this_tool() {
+Tool this_tool() {
   return {.name = "hompm-study",
           .usage = "--case NAME|--scene FILE|--study FILE [options]",
           .about = "Runs a scene with many settings and says which is the cheapest for an error.",
@@ -80,84 +71,69 @@ hompm::cli::Tool this_tool() {
               "same command goes on.\n"};
 }
 
-std::string text_option(const po::variables_map& given, const char* option) {
-  return given.count(option) ? given[option].as<std::string>() : std::string();
-}
-
-study::Study study_of(const po::variables_map& given) {
-  const auto named = given.count("case") + given.count("scene") + given.count("study");
+study::Study study_of(const CommandLine& given) {
+  const auto named = given.has("case") + given.has("scene") + given.has("study");
   if (named == 0)
     throw UsageError("nothing to study: name a --case (bar, column), a --scene or a --study file");
   if (named > 1) throw UsageError("--case, --scene and --study exclude each other");
-  if (given.count("variant") && !given.count("case")) throw UsageError("--variant goes with --case");
+  if (given.has("variant") && !given.has("case")) throw UsageError("--variant goes with --case");
   study::Study study;
-  if (given.count("study")) study = study::read_study(text_option(given, "study"));
-  study.case_name = given.count("study") ? study.case_name : text_option(given, "case");
-  study.variant = given.count("study") ? study.variant : text_option(given, "variant");
-  if (given.count("scene")) study.scene_file = text_option(given, "scene");
-  if (given.count("set"))
-    for (const auto& text : given["set"].as<std::vector<std::string>>()) {
-      const auto equals = text.find('=');
-      const std::string where = "--set " + text;
-      if (equals == std::string::npos || equals == 0)
-        throw UsageError(where + ": expected KEY=VALUE, as in --set scheme.cells=32");
-      study.settings.push_back({study::full_key(text.substr(0, equals), where),
-                                study::canonical_value(text.substr(equals + 1), where)});
-    }
-  if (given.count("vary")) {
-    study::Sweep sweep;
-    for (const auto& text : given["vary"].as<std::vector<std::string>>())
-      for (study::Axis& axis : study::read_axes(text)) {
-        for (const study::Axis& other : sweep)
-          if (other.key == axis.key)
-            throw UsageError("--vary names " + study::short_key(axis.key) + " twice");
-        sweep.push_back(std::move(axis));
-      }
-    study.sweeps = {sweep};
+  if (given.has("study"))
+    study = study::read_study(given.text("study"));
+  else
+    study = {given.text("case"), given.text("variant"), given.text("scene")};
+  for (const auto& text : given.texts("set")) {
+    const auto [key, value] = key_and_value(text);
+    const std::string where = "--set " + text;
+    study.settings.push_back({study::full_key(key, where), study::canonical_value(value, where)});
   }
+  study::Sweep sweep;
+  for (const auto& text : given.texts("vary"))
+    for (study::Axis& axis : study::read_axes(text)) {
+      if (std::ranges::find(sweep, axis.key, &study::Axis::key) != sweep.end())
+        throw UsageError("--vary names " + study::short_key(axis.key) + " twice");
+      sweep.push_back(std::move(axis));
+    }
+  if (!sweep.empty()) study.sweeps = {sweep};
   if (study.sweeps.empty()) study.sweeps = study::usual_sweeps();
   return study;
 }
 
-fs::path folder_of(const po::variables_map& given, const study::Study& study) {
-  if (given.count("output")) return text_option(given, "output");
-  if (given.count("study"))
-    return fs::path("hompm-out") / ("study-" + fs::path(text_option(given, "study")).stem().string());
-  if (given.count("scene"))
-    return fs::path("hompm-out") / ("study-" + fs::path(study.scene_file).stem().string());
-  return fs::path("hompm-out") /
-         ("study-" + study.case_name + (study.variant.empty() ? "" : "-" + study.variant));
+fs::path folder_of(const CommandLine& given, const study::Study& study) {
+  if (given.has("output")) return given.text("output");
+  const std::string file = given.has("study") ? given.text("study") : study.scene_file;
+  const std::string name = study.case_name + (study.variant.empty() ? "" : "-" + study.variant);
+  return fs::path("hompm-out") / ("study-" + (file.empty() ? name : fs::path(file).stem().string()));
 }
 
-unsigned workers_of(const po::variables_map& given) {
-  if (!given.count("jobs")) return std::max(1U, std::thread::hardware_concurrency());
-  const auto jobs = hompm::cli::parse_count(text_option(given, "jobs"), "--jobs");
-  if (jobs < 1 || jobs > 1024) throw UsageError("--jobs: from 1 to 1024, not " + text_option(given, "jobs"));
-  return static_cast<unsigned>(jobs);
+unsigned workers_of(const CommandLine& given) {
+  if (!given.has("jobs")) return std::max(1U, std::thread::hardware_concurrency());
+  const auto jobs = parse_count(given.text("jobs"), "--jobs");
+  if (jobs >= 1 && jobs <= 1024) return static_cast<unsigned>(jobs);
+  throw UsageError("--jobs: from 1 to 1024, not " + given.text("jobs"));
 }
 
-int rounds_of(const po::variables_map& given) {
-  if (!given.count("repeats")) return 5;
-  const auto rounds = hompm::cli::parse_count(text_option(given, "repeats"), "--repeats");
-  if (rounds > 1000) throw UsageError("--repeats: at most 1000, not " + text_option(given, "repeats"));
-  return static_cast<int>(rounds);
+int rounds_of(const CommandLine& given) {
+  const auto rounds = given.has("repeats") ? parse_count(given.text("repeats"), "--repeats") : 5;
+  if (rounds <= 1000) return static_cast<int>(rounds);
+  throw UsageError("--repeats: at most 1000, not " + given.text("repeats"));
 }
 
-study::Field field_of(const po::variables_map& given) {
-  const std::string name = given.count("field") ? text_option(given, "field") : "displacement";
+study::Field field_of(const CommandLine& given) {
+  const std::string name = given.has("field") ? given.text("field") : "displacement";
   std::vector<std::string> names;
   for (const study::Field field : study::all_fields) {
     names.push_back(study::to_string(field));
     if (names.back() == name) return field;
   }
   throw UsageError("--field " + name + ": there are displacement, velocity, stress" +
-                   hompm::cli::suggestion(name, names));
+                   suggestion(name, names));
 }
 
-double error_of(const po::variables_map& given) {
-  if (!given.count("error")) throw UsageError("--advise needs --error, the relative L2 error wanted");
-  const double error = hompm::cli::parse_number(text_option(given, "error"), "--error");
-  if (!(error > 0.0)) throw UsageError("--error must be greater than 0, not " + text_option(given, "error"));
+double error_of(const CommandLine& given) {
+  if (!given.has("error")) throw UsageError("--advise needs --error, the relative L2 error wanted");
+  const double error = parse_number(given.text("error"), "--error");
+  if (!(error > 0.0)) throw UsageError("--error must be greater than 0, not " + given.text("error"));
   return error;
 }
 
@@ -167,31 +143,30 @@ const study::Point& point_called(const StudyJob& job, const std::string& name) {
     if (point.name == name) return point;
     names.push_back(point.name);
   }
-  throw UsageError("the study has no point " + name + hompm::cli::suggestion(name, names));
+  throw UsageError("the study has no point " + name + suggestion(name, names));
 }
 
 int advise(const StudyJob& job, study::Field field, double error, bool json) {
-  auto gathered = hompm::cli::gathered(job);
-  const study::Cost cost = study::steady_cost(gathered);
-  const study::Choice choice = study::choice_of(gathered, field, cost);
-  const std::string answer = study::answer(gathered, field, cost, error);
+  const auto outcomes = gathered(job);
+  const study::Cost cost = study::steady_cost(outcomes);
+  const study::Choice choice = study::choice_of(outcomes, field, cost);
+  const std::string answer = study::answer(outcomes, field, cost, error);
   const auto best = study::cheapest(choice.candidates, error);
   const std::string command = best ? study::command_text(job.study, *choice.outcomes[*best]) : "";
   if (json)
     std::cout << Json{{"answer", answer}, {"command", best ? Json(command) : Json()}}.dump(2) << '\n';
   else
     std::cout << answer << "\n" << command << (best ? "\n" : "");
-  return best ? hompm::cli::success : hompm::cli::invalid_run;
+  return best ? success : invalid_run;
 }
 
-int run_study(const StudyJob& job, const po::variables_map& given) {
-  using namespace hompm::cli;
-  const bool advice = given.count("advise") > 0;
+int run_study(const StudyJob& job, const CommandLine& given) {
+  const bool advice = given.has("advise");
   const int rounds = rounds_of(given);
   const unsigned workers = workers_of(given);
   const study::Field field = field_of(given);
   const double error = advice ? error_of(given) : 0.0;
-  if (!advice && given.count("error")) throw UsageError("--error goes with --advise");
+  if (!advice && given.has("error")) throw UsageError("--error goes with --advise");
   if (job.instructions && !has_callgrind() && !job.quiet)
     std::cerr << "hompm-study: valgrind is not there, so no instructions are counted\n";
   study::write_whole(job.folder / "study.toml", study::study_text(job.study));
@@ -204,47 +179,48 @@ int run_study(const StudyJob& job, const po::variables_map& given) {
               << job.points.size() << " points run; the same command goes on from there\n";
     return signal.exit_code();
   }
-  if (advice) return advise(job, field, error, given.count("json") > 0);
+  if (advice) return advise(job, field, error, given.has("json"));
   return write_study_files(job);
 }
 
-int run(const po::variables_map& given) {
-  if (given.count("count")) {
-    std::cout << "counted steps: " << study::step_from_moments(text_option(given, "count")) << '\n';
-    return hompm::cli::success;
+int run(const CommandLine& given) {
+  if (given.has("count")) {
+    std::cout << "counted steps: " << study::step_from_moments(given.text("count")) << '\n';
+    return success;
   }
   StudyJob job;
   job.study = study_of(given);
   job.points = study::checked_points(job.study);
   job.folder = folder_of(given, job.study);
-  job.instructions = !given.count("no-instructions");
-  job.quiet = given.count("quiet") > 0;
-  if (given.count("list")) {
+  job.instructions = !given.has("no-instructions");
+  job.quiet = given.has("quiet");
+  if (given.has("list")) {
     Json names = Json::array();
     for (const study::Point& point : job.points) names.push_back(point.name);
-    if (given.count("json") > 0)
+    if (given.has("json"))
       std::cout << Json{{"points", names}}.dump(2) << '\n';
     else
       for (const study::Point& point : job.points) std::cout << point.name << '\n';
-    return hompm::cli::success;
+    return success;
   }
-  hompm::numerics::check_floating_point();
-  const bool in_parts = given.count("point") || given.count("times") || given.count("gather");
+  numerics::check_floating_point();
+  const bool in_parts = given.has("point") || given.has("times") || given.has("gather");
   if (!in_parts) return run_study(job, given);
-  const hompm::cli::HeldInterruption held;
+  const HeldInterruption held;
   try {
-    if (given.count("point")) hompm::cli::run_point(job, point_called(job, text_option(given, "point")));
-    if (given.count("times")) hompm::cli::run_times(job, rounds_of(given));
-  } catch (const hompm::cli::Interrupted& signal) {
+    if (given.has("point")) run_point(job, point_called(job, given.text("point")));
+    if (given.has("times")) run_times(job, rounds_of(given));
+  } catch (const Interrupted& signal) {
     return signal.exit_code();
   }
-  return given.count("gather") ? hompm::cli::write_study_files(job) : hompm::cli::success;
+  return given.has("gather") ? write_study_files(job) : success;
 }
 
 }  // namespace
+}  // namespace hompm::cli
 
 int main(int argc, char** argv) {
-  hompm::cli::catch_interruption("hompm-study");
-  return hompm::cli::run_tool(this_tool(), argc, argv,
-                              [](const auto& command_line) { return run(command_line.options); });
+  using namespace hompm::cli;
+  catch_interruption("hompm-study");
+  return run_tool(this_tool(), argc, argv, run);
 }

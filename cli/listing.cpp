@@ -1,26 +1,16 @@
 #include "listing.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <utility>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include <hompm/effects/registry.hpp>
-#include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
 #include <hompm/recorder/checkpoint.hpp>
-#include <hompm/recorder/trace_format.hpp>
+#include <hompm/recorder/trace_file.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>
-#include <hompm/simulation/simulation.hpp>
 
-#include "text_table.hpp"
+#include "common.hpp"
 
 namespace hompm {
 

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include <hompm/scene/scene.hpp>
 #include <hompm/simulation/time_step.hpp>
 
 namespace hompm::cli {

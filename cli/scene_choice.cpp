@@ -1,21 +1,14 @@
-#include "scene_choice.hpp"
-
-#include <filesystem>
 #include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <hompm/number.hpp>
 #include <hompm/scene_file/reader.hpp>
 
-#include "common.hpp"
+#include "scene_run.hpp"
 
 namespace hompm::cli {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 
 /// Options that are short for `--set KEY=VALUE`.
 const std::vector<std::pair<std::string, std::string>> shortcuts{
@@ -30,20 +23,15 @@ const std::vector<std::pair<std::string, std::string>> shortcuts{
     {"snapshots", "output.snapshots"},
 };
 
-std::vector<Override> overrides_of(const po::variables_map& given) {
+std::vector<Override> overrides_of(const CommandLine& given) {
   std::vector<Override> overrides;
   for (const auto& [option, key] : shortcuts)
-    if (given.count(option)) {
-      const auto& value = given[option].as<std::string>();
-      overrides.push_back({key, value, std::string("--").append(option).append(" ").append(value)});
-    }
-  if (given.count("set"))
-    for (const auto& text : given["set"].as<std::vector<std::string>>()) {
-      const auto equals = text.find('=');
-      if (equals == std::string::npos || equals == 0)
-        throw UsageError("--set " + text + ": expected KEY=VALUE, as in --set scheme.cells=32");
-      overrides.push_back({text.substr(0, equals), text.substr(equals + 1), "--set " + text});
-    }
+    if (given.has(option))
+      overrides.push_back({key, given.text(option), "--" + option + " " + given.text(option)});
+  for (const auto& text : given.texts("set")) {
+    const auto [key, value] = key_and_value(text);
+    overrides.push_back({key, value, "--set " + text});
+  }
   return overrides;
 }
 
@@ -62,24 +50,21 @@ std::string first_different_line(const std::string& here, const std::string& the
 
 }  // namespace
 
-Scene scene_of(const po::variables_map& given) {
+Scene scene_of(const CommandLine& given) {
   auto overrides = overrides_of(given);
-  const auto text = [&](const char* option) {
-    return given.count(option) ? given[option].as<std::string>() : std::string();
-  };
-  if (given.count("case") && given.count("scene")) throw UsageError("--case and --scene exclude each other");
-  if (given.count("variant") && !given.count("case")) throw UsageError("--variant goes with --case");
-  if (given.count("scene")) return load_scene(text("scene"), overrides);
-  if (given.count("case")) return load_builtin(text("case"), text("variant"), overrides);
-  if (given.count("check")) return load_scene(fs::path(text("check")) / "scene.toml", overrides);
+  if (given.has("case") && given.has("scene")) throw UsageError("--case and --scene exclude each other");
+  if (given.has("variant") && !given.has("case")) throw UsageError("--variant goes with --case");
+  if (given.has("scene")) return load_scene(given.text("scene"), overrides);
+  if (given.has("case")) return load_builtin(given.text("case"), given.text("variant"), overrides);
+  if (given.has("check")) return load_scene(fs::path(given.text("check")) / "scene.toml", overrides);
   throw UsageError(
       "nothing to run: name a --case (bar, column), a --scene FILE, or a golden folder to --check");
 }
 
-void demand_same_scene(Scene& scene, const po::variables_map& given) {
-  const std::string folder = given["check"].as<std::string>();
+void demand_same_scene(Scene& scene, const CommandLine& given) {
+  const std::string folder = given.text("check");
   const Scene golden = load_scene(fs::path(folder) / "scene.toml", {});
-  if (!given.count("snapshots") && scene.origins.count("output.snapshots") == 0) scene.output = golden.output;
+  if (!given.has("snapshots") && scene.origins.count("output.snapshots") == 0) scene.output = golden.output;
   const std::string mine = scene_text(scene);
   const std::string theirs = scene_text(golden);
   if (mine == theirs) return;
@@ -87,10 +72,10 @@ void demand_same_scene(Scene& scene, const po::variables_map& given) {
                    ": a golden of another scene: " + first_different_line(mine, theirs));
 }
 
-Scene resumed_scene(const po::variables_map& given, const Checkpoint& from) {
-  const std::string option = "--resume " + given["resume"].as<std::string>();
+Scene resumed_scene(const CommandLine& given, const Checkpoint& from) {
+  const std::string option = "--resume " + given.text("resume");
   Scene scene = from.scene;
-  if (given.count("case") || given.count("scene") || given.count("variant")) {
+  if (given.has("case") || given.has("scene") || given.has("variant")) {
     scene = scene_of(given);
   } else if (const auto overrides = overrides_of(given); !overrides.empty()) {
     for (const Override& change : overrides)

@@ -1,36 +1,107 @@
 #include "scene_run.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <filesystem>
+#include <cstdio>
+#include <fstream>
 #include <iostream>
-#include <memory>
-#include <span>
-#include <string>
-#include <utility>
+#include <sys/resource.h>
+#include <unistd.h>
 
-#include <hompm/error.hpp>
 #include <hompm/number.hpp>
-#include <hompm/output/run_folder.hpp>
 #include <hompm/output/run_report.hpp>
-#include <hompm/recorder/checkpoint_writer.hpp>
-#include <hompm/recorder/trace.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/warnings.hpp>
-#include <hompm/verify/compare.hpp>
 
-#include "common.hpp"
-#include "comparison_text.hpp"
+#include "findings.hpp"
 #include "interruption.hpp"
 #include "listing.hpp"
-#include "memory.hpp"
-#include "progress.hpp"
 
 namespace hompm::cli {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
+
+struct Limit {
+  double bytes;
+  std::string name;
+};
+
+void lower(Limit& limit, double bytes, const std::string& name) {
+  if (bytes < limit.bytes) limit = {bytes, name};
+}
+
+void lower_by_resource(Limit& limit, decltype(RLIMIT_AS) resource, const std::string& name) {
+  struct rlimit set {};
+  if (::getrlimit(resource, &set) == 0 && set.rlim_cur != RLIM_INFINITY)
+    lower(limit, static_cast<double>(set.rlim_cur), name);
+}
+
+/// Those of the group and of all above it; "max" and a file that is not there are none.
+void lower_by_control_groups(Limit& limit) {
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const auto first = line.find(':');
+    const auto second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    const bool unified = controllers.empty();
+    if (!unified && controllers != "memory") continue;
+    const std::string root = unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+    const char* const file = unified ? "memory.max" : "memory.limit_in_bytes";
+    std::filesystem::path path = line.substr(second + 1);
+    for (;; path = path.parent_path()) {
+      std::ifstream set(root / path.relative_path() / file);
+      double bytes = 0.0;
+      if (set >> bytes) lower(limit, bytes, "the control group");
+      if (!path.has_relative_path()) break;
+    }
+  }
+}
+
+std::string megabytes(double bytes) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.0f MB", bytes / 1e6);
+  return text.data();
+}
+
+/// What a run keeps beside its state.
+struct Keeps {
+  bool checkpoints = false;  ///< all that was reported
+  bool trace = false;        ///< the state before each stage
+};
+
+/// About how many bytes a run takes at least: measured for every scheme, and found to be linear.
+double estimated_memory(const Scene& scene, const Keeps& keeps) {
+  constexpr double program = 16e6;
+  double bytes = program;
+  for (const Scene* body : bodies_of(scene)) {
+    const SchemeSpec& scheme = body->scheme;
+    const double cells = scheme.cells + 2.0 * scheme.margin_cells;
+    const double particles = 1.0 * scheme.cells * scheme.particles_per_cell;
+    const double functions = scheme.degree + 1.0;  // that a particle sees
+    double each = 372.0 + 64.0 * functions;
+    if (keeps.checkpoints) each += 3.0 * 64.0 * (scene.output.snapshots + 1.0) + 130.0;
+    if (keeps.trace) each += 100.0 + 16.0 * functions;
+    bytes += particles * each;
+    bytes += cells * (scheme.choices.quadrature == Quadrature::particles ? 80.0 : 600.0);
+  }
+  return bytes;
+}
+
+/// Throws `SceneError` with both numbers when that is more than this process may have: physical memory, the
+/// limits of its address space (ulimit -v) and data, and those of its control group.
+void demand_memory(const Scene& scene, const Keeps& keeps) {
+  const double needed = estimated_memory(scene, keeps);
+  Limit limit{static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)),
+              "the machine"};
+  lower_by_resource(limit, RLIMIT_AS, "ulimit -v");
+  lower_by_resource(limit, RLIMIT_DATA, "ulimit -d");
+  lower_by_control_groups(limit);
+  if (needed <= limit.bytes) return;
+  throw SceneError(scene.origin_of("scheme.cells"),
+                   "the run needs about " + megabytes(needed) + " of memory, and " + limit.name + " has " +
+                       megabytes(limit.bytes) + ": take fewer cells or particles" +
+                       (keeps.checkpoints ? ", or fewer snapshots, which checkpoints hold" : ""));
+}
 
 class Stopwatch {
  public:
@@ -45,9 +116,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-fs::path output_folder(const po::variables_map& given, const Scene& scene) {
-  if (given.count("output")) return given["output"].as<std::string>();
-  if (given.count("resume")) return checkpoint_folder(given["resume"].as<std::string>());
+fs::path output_folder(const CommandLine& given, const Scene& scene) {
+  if (given.has("output")) return given.text("output");
+  if (given.has("resume")) return checkpoint_folder(given.text("resume"));
   std::string name = scene.case_name;
   if (!scene.variant.empty()) name += "-" + scene.variant;
   return fs::path("hompm-out") / (name + "-" + scene.scheme.name);
@@ -68,40 +139,37 @@ int check_against(const fs::path& golden, const fs::path& folder, bool quiet) {
   const Comparison comparison = compare_folders(folder, golden, {});
   const bool same = comparison.verdict == Verdict::identical;
   if (!quiet || !same)
-    (quiet ? std::cerr : std::cout) << "  golden    " << golden.string() << ": "
-                                    << comparison_text(comparison);
+    (quiet ? std::cerr : std::cout) << "  golden    " << golden.string() << ": " << text_of(comparison);
   return same ? success : different;
 }
 
 /// How a run begins: anew, or where the checkpoint `from` was written.
-Checkpoint starting_point(const Scene& scene, const po::variables_map& given,
-                          std::optional<Checkpoint> from) {
+Checkpoint starting_point(const Scene& scene, const CommandLine& given, std::optional<Checkpoint> from) {
   Checkpoint point = from ? std::move(*from) : first_checkpoint(scene);
   point.scene = scene;
-  point.vtk = point.vtk && given.count("no-vtk") == 0;
-  if (given.count("checkpoint"))
-    point.every = parse_steps(given["checkpoint"].as<std::string>(), "--checkpoint", 1);
-  point.keep = point.keep || given.count("keep-checkpoint") > 0;
-  if (given.count("errors")) {
-    point.errors = given["errors"].as<std::string>();
+  point.vtk = point.vtk && !given.has("no-vtk");
+  if (given.has("checkpoint")) point.every = parse_steps(given.text("checkpoint"), "--checkpoint", 1);
+  point.keep = point.keep || given.has("keep-checkpoint");
+  if (given.has("errors")) {
+    point.errors = given.text("errors");
     if (point.errors != "auto" && point.errors != "full" && point.errors != "none")
       throw UsageError("--errors " + point.errors + ": there are auto, full, none" +
                        suggestion(point.errors, {"auto", "full", "none"}));
-  } else if (given.count("check")) {
+  } else if (given.has("check")) {
     point.errors = "full";
   }
   return point;
 }
 
 /// The trace that --trace asks for; nothing without.
-std::unique_ptr<Trace> asked_trace(const po::variables_map& given) {
+std::unique_ptr<Trace> asked_trace(const CommandLine& given) {
   TraceOptions options;
-  if (given.count("trace-values")) {
-    if (!given.count("trace")) throw UsageError("--trace-values goes with --trace");
-    options.values_from = parse_steps(given["trace-values"].as<std::string>(), "--trace-values", 0);
+  if (given.has("trace-values")) {
+    if (!given.has("trace")) throw UsageError("--trace-values goes with --trace");
+    options.values_from = parse_steps(given.text("trace-values"), "--trace-values", 0);
   }
-  if (!given.count("trace")) return nullptr;
-  return std::make_unique<Trace>(given["trace"].as<std::string>(), options);
+  if (!given.has("trace")) return nullptr;
+  return std::make_unique<Trace>(given.text("trace"), options);
 }
 
 void say_stopped(const Interrupted& signal, const std::string& rest) {
@@ -136,13 +204,13 @@ std::optional<ErrorReport> errors_of(const Scene& scene, const RunResult& result
 
 }  // namespace
 
-int run_scene(Scene scene, const po::variables_map& given, std::optional<Checkpoint> from) {
-  const bool quiet = given.count("quiet") > 0;
+int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> from) {
+  const bool quiet = given.has("quiet");
   const bool resumed = from.has_value();
-  demand_memory(scene, {.checkpoints = given.count("checkpoint") > 0 || given.count("keep-checkpoint") > 0,
-                        .trace = given.count("trace") > 0});
-  const auto form = given.count("json") > 0 ? Form::json : Form::text;
-  if (given.count("critical-step")) {
+  demand_memory(scene, {.checkpoints = given.has("checkpoint") || given.has("keep-checkpoint"),
+                        .trace = given.has("trace")});
+  const auto form = given.has("json") ? Form::json : Form::text;
+  if (given.has("critical-step")) {
     std::cout << critical_steps(scene, form);
     return success;
   }
@@ -151,10 +219,10 @@ int run_scene(Scene scene, const po::variables_map& given, std::optional<Checkpo
   const Checkpoint begin = starting_point(scene, given, std::move(from));
   const std::int64_t done = begin.point.states.front().step;
   if (resumed && done >= stepping.steps)
-    throw CheckpointError("cannot resume from " + given["resume"].as<std::string>() +
+    throw CheckpointError("cannot resume from " + given.text("resume") +
                           ": the run has come to its end, t = " + to_text(scene.end_time) +
                           " s; --end-time asks for a later one");
-  if (given.count("explain")) {
+  if (given.has("explain")) {
     std::cout << explanation(scene, stepping, form);
     return success;
   }
@@ -169,7 +237,7 @@ int run_scene(Scene scene, const po::variables_map& given, std::optional<Checkpo
   const HeldInterruption held;
   RunFolder folder(output_folder(given, scene), begin.vtk);
   const std::string where = folder.path().string();
-  if (given.count("no-clobber")) demand_no_run(folder, resumed);
+  if (given.has("no-clobber")) demand_no_run(folder, resumed);
   const auto trace = asked_trace(given);
   const Stopwatch clock(begin.seconds);
   std::optional<CheckpointWriter> checkpoints;
@@ -247,13 +315,13 @@ int run_scene(Scene scene, const po::variables_map& given, std::optional<Checkpo
       timing_json(result, seconds, errors ? std::optional(reference_clock.seconds()) : std::nullopt));
 
   if (!quiet) {
-    if (given.count("json"))
+    if (given.has("json"))
       std::cout << json;
     else
       std::cout << run_summary(report) << "  files     " << where << "\n";
   }
-  if (given.count("check"))
-    return check_against(given["check"].as<std::string>(), folder.path(), quiet || given.count("json"));
+  if (given.has("check"))
+    return check_against(given.text("check"), folder.path(), quiet || given.has("json"));
   return success;
 }
 

@@ -1,19 +1,30 @@
-// Runs one scene into its folder, and then compares it with its reference solution.
+// From the options of hompm-run to the scene they ask for, and what is done with it.
 #pragma once
 
 #include <optional>
 
-#include <boost/program_options.hpp>
-
 #include <hompm/recorder/checkpoint.hpp>
 
+#include "common.hpp"
+
 namespace hompm::cli {
+
+/// The scene that is asked for: a case, a file, or that of a golden folder, with what the command line says
+/// about it. Throws `UsageError`, and what `load_scene` throws.
+Scene scene_of(const CommandLine& given);
+
+/// Throws `UsageError` when the golden folder that --check names holds another scene. How often to write is
+/// not part of what is simulated: it follows the golden scene unless the command line says otherwise.
+void demand_same_scene(Scene& scene, const CommandLine& given);
+
+/// The scene of the checkpoint, with a later end time where the command line asks for one. Throws
+/// `UsageError` when the command line names another scene, and what `load_scene` throws.
+Scene resumed_scene(const CommandLine& given, const Checkpoint& from);
 
 /// Runs the scene, from a checkpoint where there is one, and does what the command line asks for with it. The
 /// run is in its folder before errors are computed. A run that becomes invalid leaves its last valid
 /// snapshot, marked as such. A signal that asks to end is answered with one line and the exit code 128 + its
 /// number. Returns the exit code; throws what `run` throws, `FileError` and `UsageError`.
-int run_scene(Scene scene, const boost::program_options::variables_map& given,
-              std::optional<Checkpoint> from);
+int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> from);
 
 }  // namespace hompm::cli

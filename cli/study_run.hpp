@@ -1,13 +1,18 @@
-// Runs the points of a study on this machine: what is there already is kept, what is missing is run.
+// Runs the points of a study on this machine, and writes the files it leaves behind: what is there already is
+// kept, what is missing is run.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include <hompm/study/study.hpp>
+#include <hompm/study/outcome.hpp>
 
 namespace hompm::cli {
+
+/// Whether valgrind is there and can run this program; not when it is built with the address sanitizer.
+bool has_callgrind();
 
 struct StudyJob {
   study::Study study;
@@ -27,5 +32,15 @@ void run_points(const StudyJob& job, unsigned workers);
 
 /// Takes `rounds` times of each valid point, one run at a time, in rounds over all points.
 void run_times(const StudyJob& job, int rounds);
+
+/// The outcomes of all points. Throws `FileError` naming one that is missing.
+std::vector<study::Outcome> gathered(const StudyJob& job);
+/// How many points have a record.
+std::size_t gathered_count(const StudyJob& job);
+
+/// points.csv, study.json, answers.txt, times.csv, and the pictures by gnuplot where it is there; prints the
+/// answers unless the job is quiet. Returns the exit code: `invalid_run` where no point could be run. Throws
+/// `FileError` as `gathered`.
+int write_study_files(const StudyJob& job);
 
 }  // namespace hompm::cli

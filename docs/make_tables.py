@@ -538,7 +538,7 @@ PARTS = {
     "effect-scene": source("docs/scenes/mass-damping.toml", "toml"),
     "effect-test": source("tests/verification/effects_test.cpp", "cpp", "TEST_CASE(\"mass-proportional damping", "}"),
     "scheme-choice": source("lib/hompm/scene/scheme_choices.hpp", "cpp", "enum class Basis", "};"),
-    "scheme-key": source("lib/hompm/scene_file/keys.cpp", "cpp", "      {\"scheme.basis\"", "       [](Scene& scene) -> Slot { return &scene.scheme.choices.basis; }},"),
+    "scheme-key": source("lib/hompm/scene_file/keys.cpp", "cpp", "      {\"scheme.basis\"", "       [](Scene& s) { return &s.scheme.choices.basis; }},"),
     "scheme-conflicts": source("lib/hompm/scene_file/complete.cpp", "cpp", "  const bool domains =", "              \"must be at least 3 with a basis of hat functions over domains\");"),
     "scheme-stage": source("lib/hompm/scheme/join_degree.hpp", "cpp", "  if (choices.basis == Basis::splines)", "        [basis = choices.basis, right_end](State& state) { evaluate_domains(state, basis, right_end); });"),
     "scheme-formula": source("lib/hompm/scheme/particle_domains.hpp", "cpp", "/// Values and gradients of the hat functions over a domain", "}"),

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -50,5 +53,23 @@ InvalidRun::InvalidRun(std::int64_t step_, double time_, std::int64_t particle_,
 FileError::FileError(std::string_view action, const std::filesystem::path& path, int error_number)
     : Error("cannot " + std::string(action) + " " + path.string() + ": " +
             std::generic_category().message(error_number)) {}
+
+std::string read_file(const std::filesystem::path& path, std::size_t most) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw FileError("cannot read " + path.string() + ": it is a folder");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  std::array<char, 1 << 16> chunk{};
+  while (file.read(chunk.data(), chunk.size()), file.gcount() > 0) {
+    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() > most)
+      throw FileError("cannot read " + path.string() + ": it has more than " + std::to_string(most >> 20U) +
+                      " MiB");
+  }
+  if (!file.is_open() || file.bad()) throw FileError("read", path, errno);
+  return text;
+}
 
 }  // namespace hompm

@@ -70,4 +70,7 @@ class FileError : public Error {
   FileError(std::string_view action, const std::filesystem::path& path, int error_number);
 };
 
+/// All of a file, of at most `most` bytes. Throws `FileError` for one that cannot be read, or is larger.
+std::string read_file(const std::filesystem::path& path, std::size_t most = std::size_t(-1));
+
 }  // namespace hompm

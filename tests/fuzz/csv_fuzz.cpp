@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/verify/field_judge.hpp>
 #include <hompm/verify/particle_table.hpp>
 #include <hompm/verify/table.hpp>
 #include <hompm/verify/table_comparison.hpp>

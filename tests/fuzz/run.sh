@@ -64,7 +64,7 @@ COMMANDS
 grep -oh '"[a-z][a-z0-9_.-]*"' $source/lib/hompm/scene_file/keys.cpp $source/lib/hompm/effects/*.cpp | tr -d '"' | tr . '\n' |
   sort -u | sed 's/.*/"&"/' >scene.dict
 cp scene.dict study.dict
-grep -oh '"[a-z][a-z-]*"' $source/cli/hompm-*.cpp $source/cli/foreign.cpp | sort -u | sed 's/"\(.*\)"/"--\1"/' | cat - scene.dict >command.dict
+grep -oh '"[a-z][a-z-]*"' $source/cli/hompm-*.cpp $source/cli/diff_options.cpp | sort -u | sed 's/"\(.*\)"/"--\1"/' | cat - scene.dict >command.dict
 printf '"%s"\n' time particle X displacement velocity stress 1e400 nan inf -0 0x1p3 ',' ';' '\xef\xbb\xbf' '\x0d\x0a' >csv.dict
 printf '"%s"\n' '\xff\xff' '\xfe\xff' '\xfd\xff' '\xfc\xff' '\xff\xff\xff\xff\xff\xff\xff\xff' '\x00\x00\x00\x00\x00\x00\x00\x00' >trace.dict
 cp trace.dict checkpoint.dict

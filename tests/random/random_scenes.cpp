@@ -18,7 +18,7 @@
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/scheme/scheme.hpp>
-#include <hompm/simulation/columns.hpp>
+#include <hompm/simulation/records.hpp>
 
 #include "support/recorded_run.hpp"
 

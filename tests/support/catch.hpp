@@ -1,7 +1,8 @@
 // One include for Catch2 2.13 and 3, and what the two name differently.
 #pragma once
 
-// No try around each assertion, which a third of the code of a test would be: what is thrown there fails the test by its name.
+// No try around each assertion, which a third of the code of a test would be: what is thrown there fails the
+// test by its name.
 #define CATCH_CONFIG_FAST_COMPILE
 
 #include <string>

@@ -7,7 +7,7 @@
 
 #include <hompm/recorder/checkpoint.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/simulation/columns.hpp>
+#include <hompm/simulation/records.hpp>
 #include <hompm/simulation/run.hpp>
 
 namespace hompm::test {

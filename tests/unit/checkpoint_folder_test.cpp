@@ -6,7 +6,7 @@
 
 #include <hompm/error.hpp>
 #include <hompm/output/run_folder.hpp>
-#include <hompm/recorder/checkpoint_writer.hpp>
+#include <hompm/recorder/checkpoint.hpp>
 
 #include "support/catch.hpp"
 #include "support/file_size_limit.hpp"

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 
 #include <hompm/plan/state.hpp>
-#include <hompm/scheme/data_splines.hpp>
 #include <hompm/scheme/gauss_points.hpp>
 #include <hompm/scheme/reconstruction.hpp>
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/verify/error_norms.hpp>
+#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include <hompm/output/run_folder.hpp>
-#include <hompm/recorder/checkpoint_writer.hpp>
+#include <hompm/recorder/checkpoint.hpp>
 #include <hompm/simulation/run.hpp>
 
 #include "support/catch.hpp"

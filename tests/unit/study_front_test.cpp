@@ -5,9 +5,7 @@
 #include <vector>
 
 #include <hompm/study/answers.hpp>
-#include <hompm/study/front.hpp>
-#include <hompm/study/picture.hpp>
-#include <hompm/study/tables.hpp>
+#include <hompm/study/outcome.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

@@ -2,7 +2,7 @@
 #include <string>
 
 #include <hompm/error.hpp>
-#include <hompm/recorder/state_bytes.hpp>
+#include <hompm/recorder/bytes.hpp>
 #include <hompm/simulation/simulation.hpp>
 #include <hompm/study/measure.hpp>
 

@@ -8,8 +8,7 @@
 #include <hompm/error.hpp>
 #include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/trace.hpp>
-#include <hompm/recorder/trace_comparison.hpp>
-#include <hompm/recorder/trace_format.hpp>
+#include <hompm/recorder/trace_file.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/run.hpp>
 

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/materials/material.hpp>

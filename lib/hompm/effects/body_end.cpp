@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <limits>
-#include <utility>
-
 #include <hompm/effects/body_end.hpp>
 
 namespace hompm::detail {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/scene/amplitude.hpp>

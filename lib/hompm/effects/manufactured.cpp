@@ -1,7 +1,3 @@
-#include <cmath>
-#include <limits>
-#include <memory>
-
 #include <hompm/effects/effects.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/numerics/elementary.hpp>

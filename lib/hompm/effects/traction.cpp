@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-
 #include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/scene/amplitude.hpp>

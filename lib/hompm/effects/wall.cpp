@@ -1,6 +1,5 @@
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
-#include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/plan/invalid.hpp>
 

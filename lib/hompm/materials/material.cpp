@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cmath>
 
-#include <hompm/error.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
 
@@ -10,9 +8,8 @@ namespace hompm {
 double Hencky::stretch(double stress) const {
   constexpr double e = 2.718281828459045;
   const double ratio = stress / youngs_modulus;
-  if (!(ratio <= 1.0 / e)) {
+  if (!(ratio <= 1.0 / e))
     throw Error("the law hencky reaches at most the stress E/e = " + to_text(youngs_modulus / e) + " Pa");
-  }
   // Newton on g(λ) = ln λ − (σ/E) λ from 1/(1 − σ/E), where g ≤ 0 since ln λ ≤ λ − 1. As g is concave, the
   // iterates rise to the root; they have arrived when rounding stops the rise.
   double stretch = 1.0 / (1.0 - ratio);

@@ -2,9 +2,7 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <vector>
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/floating_point.hpp>

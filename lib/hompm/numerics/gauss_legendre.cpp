@@ -1,6 +1,3 @@
-#include <cmath>
-#include <string>
-
 #include <hompm/error.hpp>
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/numerics/gauss_legendre.hpp>

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -76,16 +75,11 @@ SplineSpace::SplineSpace(int degree, int cells, double origin, double cell_width
 
 void SplineSpace::evaluate(Location at, std::span<double> values, std::span<double> gradients) const {
   switch (degree_) {
-    case 1:
-      return evaluate<1>(at, values.data(), gradients.data());
-    case 2:
-      return evaluate<2>(at, values.data(), gradients.data());
-    case 3:
-      return evaluate<3>(at, values.data(), gradients.data());
-    case 4:
-      return evaluate<4>(at, values.data(), gradients.data());
-    default:
-      return evaluate<5>(at, values.data(), gradients.data());
+    case 1: return evaluate<1>(at, values.data(), gradients.data());
+    case 2: return evaluate<2>(at, values.data(), gradients.data());
+    case 3: return evaluate<3>(at, values.data(), gradients.data());
+    case 4: return evaluate<4>(at, values.data(), gradients.data());
+    default: return evaluate<5>(at, values.data(), gradients.data());
   }
 }
 

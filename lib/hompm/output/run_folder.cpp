@@ -1,19 +1,15 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <optional>
-#include <string_view>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
-#include <vector>
 
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/output/csv.hpp>
 #include <hompm/output/run_folder.hpp>
 #include <hompm/output/staging.hpp>
-#include <hompm/output/vtu.hpp>
 
 namespace hompm {
 namespace {
@@ -27,9 +23,8 @@ constexpr const char* own_names[] = {"run.json",      "timing.json",        "sce
                                      "run.pvd",       "invalid/reason.txt", "invalid/last_valid.csv"};
 
 void remove_file(const fs::path& path) {
-  if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR) {
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR)
     throw FileError("replace", path, errno);
-  }
 }
 
 bool is_snapshot_name(std::string_view name) {
@@ -58,16 +53,14 @@ void remove_earlier_run(const fs::path& folder) {
 void check(const Snapshot& snapshot) {
   const auto at = [&] { return " at time " + to_text(snapshot.time); };
   const auto check_values = [&](std::string_view name, const std::vector<double>& values) {
-    if (values.size() != snapshot.size()) {
+    if (values.size() != snapshot.size())
       throw Error("the snapshot" + at() + " has " + std::to_string(values.size()) + " values of " +
                   std::string(name) + " for " + std::to_string(snapshot.size()) + " particles");
-    }
     const auto bad =
         std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-    if (bad != values.end()) {
+    if (bad != values.end())
       throw Error(std::string(name) + " of particle " + std::to_string(bad - values.begin()) + at() +
                   " is not finite and cannot be written");
-    }
   };
   for (const auto& column : detail::all_columns) check_values(column.name, snapshot.*column.values);
   for (const auto& field : snapshot.reported) check_values(field.name, field.values);

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +5,7 @@
 #include <hompm/build_info.hpp>
 #include <hompm/number.hpp>
 #include <hompm/output/run_report.hpp>
+#include <hompm/scene/scene.hpp>
 
 namespace hompm {
 namespace {

@@ -4,9 +4,6 @@
 #include <optional>
 #include <string>
 
-#include <hompm/scene/scene.hpp>
-#include <hompm/simulation/run.hpp>
-#include <hompm/simulation/time_step.hpp>
 #include <hompm/verify/judge.hpp>
 
 namespace hompm {

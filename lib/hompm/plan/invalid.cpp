@@ -1,8 +1,5 @@
-#include <algorithm>
 #include <cmath>
-#include <string>
 
-#include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/plan/invalid.hpp>
 

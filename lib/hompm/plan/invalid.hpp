@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include <hompm/error.hpp>
 #include <hompm/plan/state.hpp>
 
 namespace hompm::detail {

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <set>
 
-#include <hompm/error.hpp>
 #include <hompm/plan/plan.hpp>
 #include <hompm/plan/taken.hpp>
 
@@ -15,16 +13,11 @@ const std::string& group_of(Site site) {
 
 std::size_t entries(const State& state, Site site) {
   switch (site) {
-    case Site::body:
-      return 1;
-    case Site::particle:
-      return state.particles.size();
-    case Site::particle_function:
-      return state.basis.values.size();
-    case Site::function:
-      return state.fields.mass.size();
-    default:
-      return 0;
+    case Site::body: return 1;
+    case Site::particle: return state.particles.size();
+    case Site::particle_function: return state.basis.values.size();
+    case Site::function: return state.fields.mass.size();
+    default: return 0;
   }
 }
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <hompm/plan/fields.hpp>
-#include <hompm/scene/scene.hpp>
 
 namespace hompm {
 

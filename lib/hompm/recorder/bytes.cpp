@@ -1,9 +1,6 @@
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <fcntl.h>
 #include <unistd.h>
 
+#include <hompm/plan/fields.hpp>
 #include <hompm/recorder/bytes.hpp>
 
 namespace hompm::detail {
@@ -26,22 +23,31 @@ std::uint64_t hash_of_bytes(std::string_view bytes) {
   return hash.value();
 }
 
-std::string read_bytes(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw FileError("read", path, errno);
-  std::string bytes;
-  std::array<char, 1 << 16> chunk{};
-  for (;;) {
-    const auto size = ::read(descriptor, chunk.data(), chunk.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) {
-      const int reason = errno;
-      ::close(descriptor);
-      if (size < 0) throw FileError("read", path, reason);
-      return bytes;
-    }
-    bytes.append(chunk.data(), static_cast<std::size_t>(size));
-  }
+void write_state(ByteWriter& out, const State& state) {
+  visit_fields(state, [&](const FieldInfo& info, auto values) {
+    out.text(info.name);
+    out.word(values.size());
+    for (const auto value : values) out.word(word_of(value));
+  });
+}
+
+void read_state(ByteReader& in, State& state) {
+  visit_fields(state, [&](const FieldInfo& info, auto values) {
+    const std::string found = in.text();
+    if (found != info.name)
+      throw Error("it has the field " + found + " in place of " + std::string(info.name));
+    if (in.count(8) != values.size()) throw Error("its field " + found + " does not fit its scene");
+    for (auto& value : values) read_value(in, value);
+  });
+  const auto refuse = [](const char* field) {
+    throw Error(std::string("its field ") + field + " does not fit its scene");
+  };
+  if (state.step < 0) refuse("step");
+  for (const double boundary : {state.left_boundary, state.right_boundary})
+    if (state.grid.locate(boundary).cell < 0) refuse("left_boundary or right_boundary");
+  const std::int64_t last = state.grid.functions() - static_cast<std::int64_t>(state.basis.stencil);
+  for (const std::int32_t first : state.basis.first)
+    if (first < 0 || first > last) refuse("basis.first");  // kernels read from there on
 }
 
 }  // namespace hompm::detail

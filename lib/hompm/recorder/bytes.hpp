@@ -1,4 +1,4 @@
-// Values as bytes that mean the same on every machine, and a hash of them.
+// Values, and all fields of a state, as bytes that mean the same on every machine, and a hash of them.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include <hompm/error.hpp>
+#include <hompm/plan/state.hpp>
 
 namespace hompm::detail {
 
@@ -94,7 +94,16 @@ class ByteReader {
   std::string_view rest_;
 };
 
-/// The whole file. Throws `FileError`.
-std::string read_bytes(const std::filesystem::path& path);
+/// Appends every field of the state, with its name and its number of values.
+void write_state(ByteWriter& out, const State& state);
+
+/// Reads what `write_state` wrote into a state of the same scene. Throws `Error` when a field is not what the
+/// scene makes it, and `BytesEnd`.
+void read_state(ByteReader& in, State& state);
+
+inline void read_value(ByteReader& in, double& value) { value = in.number(); }
+inline void read_value(ByteReader& in, std::integral auto& value) {
+  value = static_cast<std::remove_reference_t<decltype(value)>>(in.word());
+}
 
 }  // namespace hompm::detail

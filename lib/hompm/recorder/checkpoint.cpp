@@ -1,11 +1,7 @@
-#include <string_view>
-
 #include <hompm/build_info.hpp>
-#include <hompm/output/run_folder.hpp>
+#include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/checkpoint.hpp>
-#include <hompm/recorder/state_bytes.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/simulation/columns.hpp>
 
 namespace hompm {
 namespace {
@@ -201,7 +197,31 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const EffectCatalo
   if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(folder / "run.json", ignored))
     throw CheckpointError("cannot resume from " + path.string() +
                           ": there is no checkpoint, and the run in " + folder.string() + " is complete");
-  return parse_checkpoint(detail::read_bytes(file), path.string(), effects);
+  return parse_checkpoint(read_file(file), path.string(), effects);
+}
+
+CheckpointWriter::CheckpointWriter(RunFolder& folder, Checkpoint checkpoint,
+                                   std::function<void(const std::string&)> warn)
+    : folder_(folder),
+      checkpoint_(std::move(checkpoint)),
+      warn_(std::move(warn)),
+      written_(checkpoint_.point.states.front().step) {}
+
+void CheckpointWriter::write(const RunPoint& point, double seconds) {
+  checkpoint_.point = point;
+  checkpoint_.seconds = seconds;
+  try {
+    folder_.write_checkpoint(checkpoint_bytes(checkpoint_));
+    written_ = point.states.front().step;
+    failing_ = false;
+  } catch (const FileError& error) {
+    if (!failing_)
+      warn_("no checkpoint at step " + std::to_string(point.states.front().step) + ": " + error.what() +
+            "; the run goes on, " +
+            (written_ > 0 ? "the last checkpoint is of step " + std::to_string(written_)
+                          : std::string("there is none of it yet")));
+    failing_ = true;
+  }
 }
 
 }  // namespace hompm

@@ -1,16 +1,7 @@
-#include <cstring>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <hompm/build_info.hpp>
 #include <hompm/output/text_file.hpp>
-#include <hompm/plan/fields.hpp>
-#include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/trace.hpp>
-#include <hompm/recorder/trace_format.hpp>
+#include <hompm/recorder/trace_file.hpp>
 #include <hompm/scene_file/reader.hpp>
 
 namespace hompm {

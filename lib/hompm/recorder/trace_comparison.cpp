@@ -1,12 +1,9 @@
-#include <algorithm>
-#include <bit>
-#include <cmath>
 #include <sstream>
 
 #include <hompm/number.hpp>
-#include <hompm/recorder/trace_comparison.hpp>
+#include <hompm/recorder/trace.hpp>
 #include <hompm/recorder/trace_file.hpp>
-#include <hompm/verify/ordered_bits.hpp>
+#include <hompm/verify/compare.hpp>
 
 namespace hompm {
 namespace {

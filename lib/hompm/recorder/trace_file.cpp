@@ -1,8 +1,4 @@
-#include <algorithm>
-#include <utility>
-
 #include <hompm/recorder/trace_file.hpp>
-#include <hompm/recorder/trace_format.hpp>
 
 namespace hompm::detail {
 namespace {
@@ -14,7 +10,7 @@ constexpr std::size_t most = std::size_t{1}
 }  // namespace
 
 TraceFile::TraceFile(const std::filesystem::path& path, std::string shown)
-    : name(std::move(shown)), bytes_(read_bytes(path)) {
+    : name(std::move(shown)), bytes_(read_file(path)) {
   std::string_view all = bytes_;
   if (!all.starts_with(trace_magic))
     throw FileError("cannot read " + name + ": it is not a trace of hompm-run --trace");

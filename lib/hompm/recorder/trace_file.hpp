@@ -1,4 +1,4 @@
-// Reads a trace, entry by entry.
+// Reads a trace, entry by entry; what its writer and its reader agree on.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,19 @@
 #include <hompm/recorder/bytes.hpp>
 
 namespace hompm::detail {
+
+inline constexpr std::string_view trace_magic = "hompm trace\n\n\n\n\n";
+inline constexpr std::uint64_t trace_format = 2;
+
+/// Two bytes that say what comes next. Any lower number is a stage: the hash of a field after it follows.
+enum TraceTag : std::uint16_t {
+  next_step = 0xffff,
+  next_part = 0xfffe,     ///< the next kick and drift of the step
+  entry_values = 0xfffd,  ///< the values behind the hash before
+  all_values = 0xfffc,    ///< those of all fields
+  trace_end = 0xfffb,     ///< a hash of all bytes before this tag follows
+  first_tag = 0xff00,
+};
 
 struct TraceStage {
   std::string name;

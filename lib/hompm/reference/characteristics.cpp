@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <vector>
 
-#include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/reference/characteristics.hpp>
@@ -232,9 +230,8 @@ Column::Labels Column::refine(double time, double X, const Labels& labels, Cross
   // parallel a.
   const auto factors = [](double s) {
     std::array<double, degree + 1> factor{1.0};
-    for (std::size_t a = 1; a <= degree; ++a) {
+    for (std::size_t a = 1; a <= degree; ++a)
       factor[a] = factor[a - 1] * (s - static_cast<double>(a - 1)) / static_cast<double>(a);
-    }
     return factor;
   };
   const auto from_greatest = factors(high + d - greater);

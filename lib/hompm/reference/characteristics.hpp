@@ -1,8 +1,6 @@
 // The column of the law `rate` under a load switched on at once, by the method of characteristics.
 #pragma once
 
-#include <span>
-
 #include <hompm/reference/reference.hpp>
 
 namespace hompm {

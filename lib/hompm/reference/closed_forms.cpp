@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cmath>
 
-#include <hompm/numerics/elementary.hpp>
 #include <hompm/reference/closed_forms.hpp>
 
 namespace hompm {

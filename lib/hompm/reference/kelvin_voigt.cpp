@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/reference/kelvin_voigt.hpp>
@@ -291,8 +289,7 @@ class Bar {
         return free ? Shape{p * (x - 0.5 * x * x / L - L / 3.0), p * (1.0 - x / L)} : Shape{p * (x - L), p};
       case ShapedLoad::Place::right:
         return free ? Shape{p * (0.5 * x * x / L - L / 6.0), p * x / L} : Shape{p * x, p};
-      case ShapedLoad::Place::everywhere:
-        break;
+      case ShapedLoad::Place::everywhere: break;
     }
     if (free) return {0.0, 0.0};
     if (left_fixed_ && right_fixed_) return {0.5 * p * x * (L - x), p * (0.5 * L - x)};
@@ -304,12 +301,9 @@ class Bar {
     const double p = each.load.value;
     const bool mixed = left_fixed_ != right_fixed_;
     switch (each.place) {
-      case ShapedLoad::Place::left:
-        return -p;
-      case ShapedLoad::Place::right:
-        return mixed ? -sign * p : sign * p;
-      case ShapedLoad::Place::everywhere:
-        break;
+      case ShapedLoad::Place::left: return -p;
+      case ShapedLoad::Place::right: return mixed ? -sign * p : sign * p;
+      case ShapedLoad::Place::everywhere: break;
     }
     if (mixed) return (left_fixed_ ? p : -sign * p) / wave_number;
     return left_fixed_ ? p * (1.0 - sign) / wave_number : 0.0;

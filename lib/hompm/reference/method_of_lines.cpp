@@ -2,8 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -95,9 +93,8 @@ class Lines {
     force[0] -= total(loads_.left, time);
     force[nodes_ - 1] += total(loads_.right, time);
     const double acceleration = total(loads_.gravity, time);
-    for (std::size_t i = 0; i < nodes_; ++i) {
+    for (std::size_t i = 0; i < nodes_; ++i)
       force[i] = force[i] * inverse_mass_[i] + acceleration - loads_.damping_rate * v[i];
-    }
     if (ends_.left == End::fixed) force[0] = rate[0] = 0.0;
     if (ends_.right == End::fixed) force[nodes_ - 1] = rate[nodes_ - 1] = 0.0;
   }

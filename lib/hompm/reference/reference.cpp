@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -7,7 +6,6 @@
 #include <hompm/reference/characteristics.hpp>
 #include <hompm/reference/closed_forms.hpp>
 #include <hompm/reference/kelvin_voigt.hpp>
-#include <hompm/reference/loads.hpp>
 #include <hompm/reference/method_of_lines.hpp>
 #include <hompm/reference/reference.hpp>
 #include <hompm/reference/static_equilibrium.hpp>

@@ -1,8 +1,5 @@
-#include <cmath>
 #include <cstddef>
-#include <limits>
 
-#include <hompm/error.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
 #include <hompm/numerics/gauss_legendre.hpp>
@@ -14,9 +11,8 @@ namespace {
 template <class Law>
 double stretch(const Law& law, double stress) {
   const double value = law.stretch(stress);
-  if (!(value > 0.0 && value <= std::numeric_limits<double>::max())) {
+  if (!(value > 0.0 && value <= std::numeric_limits<double>::max()))
     throw Error("no equilibrium exists: the law cannot carry the stress " + to_text(stress) + " Pa");
-  }
   return value;
 }
 

@@ -141,6 +141,12 @@ struct Scene {
   /// Where each key was said ("scheme.cells", "effect[0].acceleration"); a key left to its default is absent.
   std::map<std::string, Origin> origins;
 
+  /// Where the key was said; of one left to its default its name.
+  [[nodiscard]] Origin origin_of(const std::string& key) const {
+    const auto said = origins.find(key);
+    return said == origins.end() ? Origin{key} : said->second;
+  }
+
   /// What reading it had to tell.
   std::vector<Warning> warnings;
 };

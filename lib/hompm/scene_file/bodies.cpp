@@ -1,10 +1,7 @@
 // A scene of several bodies: each is read as a scene of its own.
 #include <algorithm>
 #include <array>
-#include <set>
-#include <string_view>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
 

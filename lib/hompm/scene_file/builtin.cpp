@@ -51,9 +51,8 @@ Scene load_builtin(const std::string& case_name, const std::string& variant,
   const auto scene = std::find_if(scenes.begin(), scenes.end(), [&](const BuiltinScene& candidate) {
     return of_case(candidate) && (variant.empty() ? candidate.is_default : candidate.variant == variant);
   });
-  if (scene == scenes.end()) {
+  if (scene == scenes.end())
     unknown("--variant", variant, "variant of the case " + case_name, names(of_case, &BuiltinScene::variant));
-  }
   return parse_scene(scene->text, "built-in scene " + scene->case_name + '-' + scene->variant, overrides);
 }
 

@@ -1,8 +1,6 @@
 // What the keys of a body demand of each other.
 #include <cmath>
-#include <limits>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/reading.hpp>
 
 namespace hompm::detail {

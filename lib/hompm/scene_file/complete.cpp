@@ -1,13 +1,12 @@
 // Defaults that follow from other keys, and what keys demand of each other.
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <filesystem>
 #include <tuple>
 #include <utility>
 
 #include <hompm/materials/material.hpp>
 #include <hompm/numerics/elementary.hpp>
+#include <hompm/scene/scene.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
 #include <hompm/scheme/scheme.hpp>
@@ -239,21 +238,19 @@ void check_time_step(Reading& reading) {
     if (!reading.silent_on(path)) said.push_back(path);
     if (reading.meant.contains(path)) return;
   }
-  if (said.empty() && !reading.meant.contains("scheme")) {
+  if (said.empty() && !reading.meant.contains("scheme"))
     reading.report(reading.said.where("scheme"),
                    "the time step is missing: give one of `scheme.time_step` (s), `scheme.courant`, "
                    "`scheme.step_fraction`");
-  }
   const auto position = [&](const std::string& path) {
     const Origin& key = reading.said.find(path)->key;
     return std::tuple(key.line, key.column);
   };
   std::stable_sort(said.begin(), said.end(),
                    [&](const std::string& a, const std::string& b) { return position(a) < position(b); });
-  for (std::size_t index = 1; index < said.size(); ++index) {
+  for (std::size_t index = 1; index < said.size(); ++index)
     reading.report(reading.said.find(said[index])->key,
                    '`' + said[index] + "` and `" + said[0] + "` exclude each other: give one");
-  }
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/reading.hpp>
 
 namespace hompm::detail {

@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include <hompm/scene/scene.hpp>
 #include <hompm/scene_file/value_rule.hpp>
 
 namespace hompm::detail {

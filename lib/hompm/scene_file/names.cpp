@@ -1,7 +1,6 @@
 // Names that a scene cannot have, and what was probably meant.
 #include <algorithm>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
 

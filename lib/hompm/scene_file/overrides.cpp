@@ -1,7 +1,6 @@
 // What the command line says in place of the file.
 #include <algorithm>
 #include <charconv>
-#include <optional>
 #include <utility>
 
 #include <hompm/scene_file/keys.hpp>

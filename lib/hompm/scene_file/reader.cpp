@@ -1,13 +1,8 @@
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <set>
 #include <tuple>
 #include <utility>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scene_file/reading.hpp>
@@ -106,24 +101,6 @@ void read_bodies(Reading& reading, std::size_t count) {
   if (scenes.size() > 1) reading.scene.bodies = std::move(scenes);
 }
 
-std::string file_text(const std::string& path) {
-  constexpr std::size_t largest = 4U << 20U;
-  const auto fail = [&](const std::string& reason) {
-    throw FileError("cannot read " + path + ": " + reason);
-  };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail("it is a folder");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(std::strerror(errno));
-  std::string text(largest + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) fail(std::strerror(errno));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > largest) fail("it has more than 4 MiB, which no scene needs");
-  return text;
-}
-
 }  // namespace
 }  // namespace detail
 
@@ -145,7 +122,8 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
 
 Scene load_scene(const std::string& path, const std::vector<Override>& overrides,
                  const EffectCatalogue& effects) {
-  return parse_scene(detail::file_text(path), detail::printable(path, path.size()), overrides, effects);
+  constexpr std::size_t largest = 4U << 20U;  // more than any scene needs
+  return parse_scene(read_file(path, largest), detail::printable(path, path.size()), overrides, effects);
 }
 
 }  // namespace hompm

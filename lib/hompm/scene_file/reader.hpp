@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene/scene.hpp>
 
 namespace hompm {
 

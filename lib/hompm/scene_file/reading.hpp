@@ -8,7 +8,6 @@
 
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/scene_file/toml_values.hpp>
-#include <hompm/scene_file/value_rule.hpp>
 
 namespace hompm::detail {
 

@@ -1,11 +1,7 @@
 // The resolved scene as TOML.
-#include <algorithm>
 
-#include <hompm/effects/registry.hpp>
 #include <hompm/scene_file/keys.hpp>
-#include <hompm/scene_file/reader.hpp>
 #include <hompm/scene_file/reading.hpp>
-#include <hompm/scene_file/toml_values.hpp>
 
 namespace hompm {
 namespace {

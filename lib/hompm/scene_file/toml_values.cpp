@@ -1,7 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string_view>
 
 #include <toml++/toml.h>
 
@@ -46,20 +43,13 @@ std::string path_segment(std::string_view key) {
 
 Content content_of(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::boolean:
-      return node.as_boolean()->get();
-    case toml::node_type::integer:
-      return node.as_integer()->get();
-    case toml::node_type::floating_point:
-      return node.as_floating_point()->get();
-    case toml::node_type::string:
-      return node.as_string()->get();
-    case toml::node_type::table:
-      return Table{};
-    case toml::node_type::array:
-      return Array{};
-    default:
-      return Moment{};
+    case toml::node_type::boolean: return node.as_boolean()->get();
+    case toml::node_type::integer: return node.as_integer()->get();
+    case toml::node_type::floating_point: return node.as_floating_point()->get();
+    case toml::node_type::string: return node.as_string()->get();
+    case toml::node_type::table: return Table{};
+    case toml::node_type::array: return Array{};
+    default: return Moment{};
   }
 }
 
@@ -106,9 +96,8 @@ class Flattener {
   Flattener(Said& said, std::string_view text) : said_(said), literals_(text) {}
 
   void add_table(const toml::table& table, const std::string& path, int depth) {
-    for (const auto& [key, node] : table) {
+    for (const auto& [key, node] : table)
       add(node, join_path(path, path_segment(key.str())), path, std::string(key.str()), key.source(), depth);
-    }
   }
 
  private:

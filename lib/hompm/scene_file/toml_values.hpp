@@ -4,8 +4,7 @@
 #include <map>
 #include <string>
 
-#include <hompm/error.hpp>
-#include <hompm/scene_file/content.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 
 namespace hompm::detail {
 

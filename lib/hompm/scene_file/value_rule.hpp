@@ -1,15 +1,43 @@
-// What a key accepts: its type, unit, range and words, and how to say so.
+// One value of a scene file: as it was said, as TOML text, and what a key accepts: its type, unit, range and
+// words, and how to say so.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene_file/content.hpp>
 
 namespace hompm::detail {
+
+// What TOML has and no key of a scene can hold.
+struct Table {
+  bool operator==(const Table&) const = default;
+};
+struct Array {
+  bool operator==(const Array&) const = default;
+};
+/// A date or a time.
+struct Moment {
+  bool operator==(const Moment&) const = default;
+};
+
+using Content = std::variant<bool, std::int64_t, double, std::string, Table, Array, Moment>;
+
+/// A number as a TOML float, shortest round trip: "25.0", "1e-04"; "nan" and "inf" as TOML spells them.
+std::string toml_number(double value);
+
+/// A text as a TOML basic string, quotes included.
+std::string toml_string(const std::string& text);
+
+/// Part of a message on one line: control characters escaped, a text of more than `longest` bytes cut short.
+std::string printable(const std::string& text, std::size_t longest = 60);
+
+/// A value for a message: as TOML, cut short when long.
+std::string shown(const Content& content);
 
 enum class ValueType { number, integer, boolean, word, text };
 

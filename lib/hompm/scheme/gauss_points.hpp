@@ -1,7 +1,6 @@
 // Gauss points on the knot spans that hold material.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include <hompm/numerics/gauss_legendre.hpp>

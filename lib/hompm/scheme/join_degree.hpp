@@ -9,8 +9,6 @@
 
 #include <hompm/numerics/moving_least_squares.hpp>
 #include <hompm/numerics/taylor_least_squares.hpp>
-#include <hompm/scheme/data_splines.hpp>
-#include <hompm/scheme/mixed_integration.hpp>
 #include <hompm/scheme/motion.hpp>
 #include <hompm/scheme/velocity.hpp>
 
@@ -66,8 +64,7 @@ std::unique_ptr<Reconstruction> make_reconstruction(const State& state, const Sc
   constexpr int per_half = std::max(2, P);
   switch (choices.quadrature) {
     case Quadrature::particles:
-    case Quadrature::mixed:
-      return nullptr;
+    case Quadrature::mixed: return nullptr;
     case Quadrature::reconstructed:
       return reconstruction_from<P, per_half>(numerics::CubicSplineSites(count), state, choices);
     case Quadrature::reconstructed_exact:
@@ -218,14 +215,9 @@ std::shared_ptr<const Discretisation> join_degree(const Material& material, cons
     join_motion<P, value>(material, builder, moving, right_end);
   };
   switch (motion_of(builder.state)) {
-    case Motion::infinitesimal:
-      with_motion(std::integral_constant<Motion, Motion::infinitesimal>{});
-      break;
-    case Motion::updated:
-      with_motion(std::integral_constant<Motion, Motion::updated>{});
-      break;
-    case Motion::total:
-      with_motion(std::integral_constant<Motion, Motion::total>{});
+    case Motion::infinitesimal: with_motion(std::integral_constant<Motion, Motion::infinitesimal>{}); break;
+    case Motion::updated: with_motion(std::integral_constant<Motion, Motion::updated>{}); break;
+    case Motion::total: with_motion(std::integral_constant<Motion, Motion::total>{});
   }
   return discretisation;
 }

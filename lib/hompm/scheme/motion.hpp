@@ -5,10 +5,9 @@
 
 #include <hompm/materials/material.hpp>
 #include <hompm/plan/plan.hpp>
-#include <hompm/scheme/data_splines.hpp>
 #include <hompm/scheme/least_squares.hpp>
 #include <hompm/scheme/particle_domains.hpp>
-#include <hompm/scheme/particle_transfer.hpp>
+#include <hompm/scheme/reconstruction.hpp>
 
 namespace hompm::detail {
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include <hompm/plan/invalid.hpp>
-#include <hompm/plan/state.hpp>
 
 namespace hompm::detail {
 
@@ -141,16 +140,13 @@ inline void evaluate_domains(State& state, Basis basis, Field right_end) {
     });
   };
   switch (basis) {
-    case Basis::uniform_domains:
-      return mean_around(particles.reference_volume);
-    case Basis::contiguous_domains:
-      return mean_around(state.basis_volumes());
+    case Basis::uniform_domains: return mean_around(particles.reference_volume);
+    case Basis::contiguous_domains: return mean_around(state.basis_volumes());
     case Basis::carried_domains:
       return for_particles([&, &end = state[right_end]](std::size_t p) {
         return weigh_domain<DomainValues::ends>(state, p, carried(state, end, p), values, gradients);
       });
-    default:
-      return for_particles([&](std::size_t p) { return hats_of_particle(state, p, values); });
+    default: return for_particles([&](std::size_t p) { return hats_of_particle(state, p, values); });
   }
 }
 

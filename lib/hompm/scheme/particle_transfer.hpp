@@ -5,9 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include <hompm/error.hpp>
 #include <hompm/plan/invalid.hpp>
-#include <hompm/plan/state.hpp>
 
 namespace hompm::detail {
 
@@ -122,5 +120,12 @@ void add_at_particles(const State& state, double factor, const std::vector<doubl
   const Gather<P> at(state, state.basis.values, field);
   for (std::size_t p = 0; p < count; ++p) q[p] += factor * at(p);
 }
+
+/// f_i = Σ_cells h σ_c dN_i/dx for the hat functions. In a full cell, one between the ends of the material,
+/// σ_c is the mean of the particle stresses there, weighted with the volumes: one Gauss point is exact. In
+/// others it is Σ V_p σ_p / h, particle quadrature. (L. Beuth, Formulation and Application of a Quasi-Static
+/// Material Point Method, University of Stuttgart 2012; I. K. J. Al-Kafaji, Formulation of a Dynamic Material
+/// Point Method, University of Stuttgart 2013.) A cell without particles has no stress.
+void mixed_internal_force(State& state, const std::vector<double>& stress);
 
 }  // namespace hompm::detail

@@ -3,14 +3,21 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <hompm/plan/invalid.hpp>
+#include <hompm/numerics/cubic_spline.hpp>
+#include <hompm/numerics/interpolating_spline.hpp>
 #include <hompm/scheme/consistent_mass.hpp>
 #include <hompm/scheme/gauss_points.hpp>
 
 namespace hompm::detail {
+
+/// Of a degree that keeps the order of a basis of degree P: a cubic does up to P = 3.
+template <int P>
+using MatchingSplines =
+    std::conditional_t<(P > 3), numerics::InterpolatingSplineSites<5>, numerics::CubicSplineSites>;
 
 /// Whether a consistent mass is part of the scheme, and the reconstructed density with it.
 inline bool needs_density(const SchemeChoices& choices) {

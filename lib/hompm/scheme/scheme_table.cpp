@@ -135,12 +135,9 @@ const Splitting& splitting(TimeIntegrator integrator) {
     return Splitting{{b1, b2, b3, 1.0 - 2.0 * (b1 + b2 + b3), b3, b2, b1}, {a1, a2, a3, a3, a2, a1}};
   }();
   switch (integrator) {
-    case TimeIntegrator::euler_cromer:
-      return euler_cromer;
-    case TimeIntegrator::leapfrog:
-      return leapfrog;
-    default:
-      return blanes_moan;
+    case TimeIntegrator::euler_cromer: return euler_cromer;
+    case TimeIntegrator::leapfrog: return leapfrog;
+    default: return blanes_moan;
   }
 }
 

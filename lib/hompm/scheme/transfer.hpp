@@ -152,10 +152,8 @@ void join_transfer(const StageBuilder& builder, const std::shared_ptr<const Affi
         join_velocity_change(builder, "particle velocity (FLIP and PIC)",
                              [fraction](State& state) { mix_velocity<P>(state, fraction); });
       return;
-    case Transfer::pic:
-      return join_velocity_change(builder, "particle velocity (PIC)", take_velocity<P>);
-    case Transfer::xpic:
-      return join_hidden_velocity<P>(builder, discretisation);
+    case Transfer::pic: return join_velocity_change(builder, "particle velocity (PIC)", take_velocity<P>);
+    case Transfer::xpic: return join_hidden_velocity<P>(builder, discretisation);
     case Transfer::apic:
       builder.add({.name = "gradient of the particle velocity (APIC)",
                    .phase = Phase::velocity,

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include <hompm/plan/plan.hpp>
 #include <hompm/scheme/least_squares.hpp>
 #include <hompm/scheme/reconstruction.hpp>
 #include <hompm/scheme/transfer.hpp>
@@ -67,12 +66,9 @@ void join_acceleration(const StageBuilder& builder, Own<Reconstruction> splines)
 /// velocity of the grid.
 inline double share_of_reaction(const SchemeChoices& choices) {
   switch (choices.transfer) {
-    case Transfer::flip:
-      return 1.0 - choices.flip_fraction;
-    case Transfer::xpic:
-      return 0.0;  // the filter books its own
-    default:
-      return 1.0;
+    case Transfer::flip: return 1.0 - choices.flip_fraction;
+    case Transfer::xpic: return 0.0;  // the filter books its own
+    default: return 1.0;
   }
 }
 
@@ -101,8 +97,7 @@ class Discretised final : public Discretisation {
         splines_.of(state).weighted_integrals(state, particles, grid);
         splines_.of(state).solve(grid);
         return 0.0;
-      default:
-        return least_squares_.of(state).project(state, particles, grid);
+      default: return least_squares_.of(state).project(state, particles, grid);
     }
   }
   double divide_by_mass(State& state, std::vector<double>& impulses) const override {

@@ -1,12 +1,6 @@
-#include <algorithm>
-#include <cmath>
-
-#include <hompm/error.hpp>
 #include <hompm/numerics/spectral_radius.hpp>
 #include <hompm/scheme/join_scheme.hpp>
-#include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>
-#include <hompm/simulation/held_ends.hpp>
 
 namespace hompm {
 namespace {
@@ -123,8 +117,7 @@ bool moving_free_end(const Scene& scene) {
 namespace {
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
-  const auto said = scene.origins.find("scheme.particles_per_cell");
-  throw SceneError(said == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : said->second, why);
+  throw SceneError(scene.origin_of("scheme.particles_per_cell"), why);
 }
 
 /// Of the ends of the scene as if nothing held them.

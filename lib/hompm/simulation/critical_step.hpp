@@ -1,10 +1,6 @@
 // The largest stable time step of a scene's scheme.
 #pragma once
 
-#include <cstdint>
-
-#include <hompm/effects/registry.hpp>
-#include <hompm/scene/scene.hpp>
 #include <hompm/simulation/linear_step.hpp>
 
 namespace hompm {

@@ -1,10 +1,11 @@
-// Whether a run is still one that a body could do.
+// What watches a run: whether it is still one that a body could do, and how the critical step changes.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
-#include <hompm/simulation/simulation.hpp>
+#include <hompm/simulation/critical_step.hpp>
+#include <hompm/simulation/run.hpp>
 
 namespace hompm::detail {
 
@@ -49,5 +50,27 @@ LeastTaken least_taken(const Simulation& simulation);
 
 /// What the loads of a scene may supply, and what rounding of positions may store, J/m².
 double energy_scale(const Scene& scene, const std::vector<State>& states);
+
+/// Computes the critical step again when waves have become faster, or after so many steps that it costs less
+/// than 1 % of them, and raises `largest_step_fraction`. What it does depends on states and extremes alone,
+/// so that a resumed run goes on with the same bits. Nothing moves with infinitesimal kinematics, and nothing
+/// is looked at.
+class StepWatch {
+ public:
+  /// The scene must outlive it.
+  explicit StepWatch(const Scene& scene);
+
+  /// Speed of the fastest waves in the bodies, m/s: √(dσ/dε / ρ), total Lagrangian √(dσ/dλ / ρ0).
+  [[nodiscard]] double fastest_wave(const std::vector<State>& states) const;
+
+  /// After each step.
+  void look(const std::vector<State>& states, RunExtremes& extremes);
+
+ private:
+  bool moves_;
+  std::vector<const Scene*> bodies_;
+  std::vector<Material> materials_;
+  std::vector<CriticalStep> critical_;  ///< of each body; empty before the first check
+};
 
 }  // namespace hompm::detail

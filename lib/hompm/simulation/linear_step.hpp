@@ -1,10 +1,10 @@
-// The scheme's own step, linearised in a configuration: what its stability depends on.
+// The scheme's own step, linearised in a configuration, which its stability depends on; and a trial of what
+// holds an end.
 #pragma once
 
 #include <vector>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/materials/material.hpp>
 #include <hompm/simulation/simulation.hpp>
 
 namespace hompm {
@@ -62,3 +62,18 @@ class LinearStep {
 };
 
 }  // namespace hompm
+
+namespace hompm::detail {
+
+/// True where an end of the body is held by an effect of its own (piston, wall, absorbing; not by another
+/// body).
+bool has_held_ends(const Scene& scene);
+
+/// Does `steps` of `time_step` (s) from noise with such a scene, at small strain, with nothing
+/// but its held ends: a piston or wall that stands still, or an absorbing end. False when the noise grows.
+///
+/// With few particles per cell that cannot be said by an eigenvalue of the free body: the projection to the
+/// grid is not symmetric, and the same end is pushed and felt as two different ones (docs/stability.md).
+bool stays_bounded(const Scene& scene, double time_step, int steps);
+
+}  // namespace hompm::detail

@@ -1,18 +1,8 @@
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <string>
-#include <utility>
-
-#include <hompm/effects/registry.hpp>
-#include <hompm/error.hpp>
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/plan/invalid.hpp>
-#include <hompm/simulation/columns.hpp>
 #include <hompm/simulation/guards.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/simulation/step_watch.hpp>
 #include <hompm/simulation/warnings.hpp>
 
 namespace hompm {

@@ -5,7 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include <hompm/simulation/records.hpp>
 #include <hompm/simulation/simulation.hpp>
 #include <hompm/simulation/time_step.hpp>
 

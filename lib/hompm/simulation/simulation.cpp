@@ -1,10 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <string>
-
 #include <hompm/effects/registry.hpp>
 #include <hompm/scheme/join_scheme.hpp>
 #include <hompm/simulation/simulation.hpp>
@@ -114,8 +107,7 @@ void Simulation::start(const Scene& scene, double time_step) {
   try {
     run(start_phases, states_);
   } catch (const InvalidRun& error) {
-    const auto origin = scene.origins.find("scheme.particles_per_cell");
-    throw SceneError(origin == scene.origins.end() ? Origin{"scheme.particles_per_cell"} : origin->second,
+    throw SceneError(scene.origin_of("scheme.particles_per_cell"),
                      "the scene cannot be started: " + error.reason);
   }
   for (State& state : states_) state.balance = {};

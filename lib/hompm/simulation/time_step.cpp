@@ -1,15 +1,8 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/simulation/critical_step.hpp>
-#include <hompm/simulation/resolution.hpp>
 #include <hompm/simulation/time_step.hpp>
+#include <hompm/simulation/warnings.hpp>
 
 namespace hompm {
 namespace {
@@ -55,8 +48,7 @@ Count count_steps(const Scene& scene, double step, const Origin& origin, const s
 TimeStepping time_stepping(const Scene& scene) {
   numerics::check_floating_point();  // the search for the critical step already relies on it
   const std::string key = asked_by(scene.scheme);
-  const auto said = scene.origins.find(key);
-  const Origin origin = said != scene.origins.end() ? said->second : Origin{key};
+  const Origin origin = scene.origin_of(key);
 
   TimeStepping result;
   result.critical_time_step = std::numeric_limits<double>::infinity();

@@ -22,7 +22,7 @@ struct TimeStepping {
 /// critical step), shortened where needed so that a whole number of steps ends at `end_time`. Throws
 /// `SceneError` for a step above the critical one, unless `allow_unstable` is set, naming the limit; for more
 /// than 10¹⁰ steps; for a part of the critical step that is far longer than the run; and for loads and
-/// initial fields that would act as something else (simulation/resolution.hpp), naming the number to take.
+/// initial fields that would act as something else (simulation/warnings.hpp), naming the number to take.
 /// Throws `ArithmeticError` as `run` does.
 TimeStepping time_stepping(const Scene& scene);
 

@@ -1,11 +1,29 @@
-// What a scene or a run should be told of though it goes on: in run.json and on standard error.
+// What a scene or a run should be told of: loads and fields too fine for steps and grid, which are refused or
+// come with the warnings in run.json and on standard error.
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include <hompm/scene/scene.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/simulation/time_step.hpp>
+
+namespace hompm::detail {
+
+/// A load or an initial field that is too fine.
+struct Unresolved {
+  Origin origin;
+  std::string code;
+  std::string text;  ///< how fine it is, and the number to take
+  bool refused;      ///< it would act as something else; otherwise it is merely coarse
+};
+
+/// Looks at the scene with a time step (s). A period and a pulse take 4 steps or they are refused (sampling
+/// at less than two would give another frequency, or nothing), 20 or they are coarse; a ramp of less than 4
+/// is coarse: it acts as a jump. A wave of an initial field takes two particles or it is refused, four and
+/// two cells or it is coarse.
+std::vector<Unresolved> unresolved(const Scene& scene, double time_step);
+
+}  // namespace hompm::detail
 
 namespace hompm {
 
@@ -14,7 +32,7 @@ namespace hompm {
 ///   moving free end (Sulsky, Zhou, Schreyer, Comput. Phys. Commun. 87 (1995) 236–252; Bardenhagen, J.
 ///   Comput. Phys. 180 (2002) 383–403);
 /// - "coarse-load", "coarse-mode": a load or an initial field just above what steps or particles can carry
-///   (simulation/resolution.hpp refuses what is below);
+///   (what is below is refused);
 /// - "no-rest": [rest] that cannot be reached, because a load goes on changing.
 std::vector<Warning> warnings_before(const Scene& scene, const TimeStepping& stepping);
 

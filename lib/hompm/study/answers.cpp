@@ -1,10 +1,6 @@
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <map>
-#include <utility>
 
-#include <hompm/scene_file/content.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 #include <hompm/study/answers.hpp>
 
 namespace hompm::study {

@@ -1,11 +1,10 @@
-#include <algorithm>
 #include <chrono>
 
-#include <hompm/error.hpp>
 #include <hompm/plan/fields.hpp>
+#include <hompm/recorder/bytes.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/run.hpp>
+#include <hompm/simulation/simulation.hpp>
 #include <hompm/study/measure.hpp>
 
 namespace hompm::study {
@@ -117,6 +116,36 @@ double timed(const Scene& scene) {
        .history = {},
        .progress = {}});
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void write_moments(const std::filesystem::path& folder, const Measured& measured) {
+  detail::ByteWriter out;
+  out.number(measured.stepping.time_step);
+  out.word(measured.moments.size());
+  for (const State& moment : measured.moments) detail::write_state(out, moment);
+  write_whole(folder / "moments", out.bytes);
+  write_whole(folder / "scene.toml", measured.record.scene);
+}
+
+std::int64_t step_from_moments(const std::filesystem::path& folder) {
+  const Scene scene = load_scene(folder / "scene.toml", {});
+  const auto path = folder / "moments";
+  const std::string bytes = read_file(path);
+  detail::ByteReader in(bytes);
+  const auto readable = [&](const auto& read) {
+    try {
+      return read();
+    } catch (const Error& error) {
+      throw FileError("cannot read " + path.string() + ": " + error.what());
+    }
+  };
+  Simulation simulation(scene, readable([&] { return in.number(); }));
+  const std::size_t moments = readable([&] { return in.count(8); });
+  for (std::size_t moment = 0; moment < moments; ++moment) {
+    readable([&] { detail::read_state(in, simulation.state()); });
+    simulation.step();
+  }
+  return static_cast<std::int64_t>(moments);
 }
 
 }  // namespace hompm::study

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <hompm/plan/state.hpp>
-#include <hompm/simulation/time_step.hpp>
 #include <hompm/study/record.hpp>
 
 namespace hompm::study {

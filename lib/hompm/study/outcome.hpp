@@ -1,16 +1,31 @@
-// The points of a study with all that is known about them.
+// The points of a study with all that is known about them, and which settings are worth their cost.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <hompm/study/front.hpp>
 #include <hompm/study/record.hpp>
 
 namespace hompm::study {
+
+/// A run as far as a choice is concerned. Both are finite and ≥ 0.
+struct Candidate {
+  double cost = 0.0;
+  double error = 0.0;
+};
+
+/// Indices of the candidates that no other beats in cost and error alike, by rising cost and falling error.
+/// Of equal ones the first.
+std::vector<std::size_t> pareto_front(std::span<const Candidate> candidates);
+
+/// Index of the cheapest candidate with at most this error, of equal ones the most accurate; nothing where
+/// none is as accurate.
+std::optional<std::size_t> cheapest(std::span<const Candidate> candidates, double error);
 
 enum class Field { displacement, velocity, stress };
 inline constexpr std::array all_fields{Field::displacement, Field::velocity, Field::stress};

@@ -1,12 +1,8 @@
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <initializer_list>
-#include <limits>
-#include <string_view>
 
 #include <hompm/number.hpp>
-#include <hompm/study/picture.hpp>
+#include <hompm/study/answers.hpp>
 
 namespace hompm::study {
 namespace {

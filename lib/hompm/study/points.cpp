@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <map>
-#include <optional>
 #include <set>
 #include <utility>
 

@@ -1,9 +1,5 @@
-#include <fstream>
-#include <iterator>
-
 #include <nlohmann/json.hpp>
 
-#include <hompm/error.hpp>
 #include <hompm/output/staging.hpp>
 #include <hompm/study/record.hpp>
 
@@ -33,20 +29,11 @@ void read_norms(const Json& json, ErrorNorms& norms, double& own) {
   own = json.at("reference_error");
 }
 
-Json parse(const std::string& text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw Error(std::string("not a record of a study: ") + error.what());
-  }
-}
-
 /// What `read` makes of the JSON text; a missing or misshapen part is an `Error`.
 template <class Read>
 auto read_json(const std::string& text, Read read) {
-  const Json json = parse(text);
   try {
-    return read(json);
+    return read(Json::parse(text));
   } catch (const Json::exception& error) {
     throw Error(std::string("not a record of a study: ") + error.what());
   }
@@ -164,9 +151,9 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
 }
 
 std::optional<std::string> text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) return std::nullopt;
+  return read_file(path);
 }
 
 }  // namespace hompm::study

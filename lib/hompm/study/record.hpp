@@ -1,7 +1,6 @@
 // What is known about one point of a study once it has been run.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>

@@ -1,17 +1,12 @@
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
-#include <optional>
 
 #include <toml++/toml.h>
 
 #include <hompm/number.hpp>
-#include <hompm/scene_file/content.hpp>
 #include <hompm/scene_file/reader.hpp>
+#include <hompm/scene_file/value_rule.hpp>
 #include <hompm/study/study.hpp>
 
 namespace hompm::study {
@@ -139,13 +134,7 @@ std::string toml_value(const std::string& value) {
 }  // namespace
 
 Study read_study(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw FileError("cannot read " + path + ": it is a folder");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError("cannot read " + path + ": " + std::strerror(errno));
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = read_file(path);
   try {
     return Reader(path).read(toml::parse(text, path));
   } catch (const toml::parse_error& error) {

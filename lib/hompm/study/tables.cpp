@@ -1,10 +1,7 @@
-#include <algorithm>
-#include <array>
-
 #include <nlohmann/json.hpp>
 
 #include <hompm/number.hpp>
-#include <hompm/study/tables.hpp>
+#include <hompm/study/answers.hpp>
 
 namespace hompm::study {
 namespace {

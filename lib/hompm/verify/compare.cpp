@@ -1,16 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include <hompm/error.hpp>
-#include <hompm/simulation/columns.hpp>
+#include <hompm/simulation/records.hpp>
 #include <hompm/verify/compare.hpp>
-#include <hompm/verify/excerpt.hpp>
-#include <hompm/verify/field_judge.hpp>
-#include <hompm/verify/table.hpp>
 #include <hompm/verify/table_comparison.hpp>
 
 namespace hompm {
@@ -95,15 +90,7 @@ std::string shown(bool has_line, std::string_view line) {
 }  // namespace
 
 std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::identical:
-      return "identical";
-    case Verdict::equivalent:
-      return "equivalent";
-    case Verdict::different:
-      break;
-  }
-  return "different";
+  return std::array{"identical", "equivalent", "different"}[static_cast<std::size_t>(verdict)];
 }
 
 std::uint64_t ulp_distance(double a, double b) {
@@ -163,10 +150,9 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
     if (!first) first = judge.first();
     if (!result.first) result.first = judge.first_beyond();
   }
-  if (!any_file) {
+  if (!any_file)
     throw FileError("neither " + a.string() + " nor " + b.string() +
                     " holds particles.csv, stress.csv or history.csv");
-  }
 
   if (!result.first) result.first = first;
   result.messages = faults.messages();
@@ -175,11 +161,10 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
     return std::any_of(result.fields.begin(), result.fields.end(),
                        [&](const auto& f) { return f.*count > 0; });
   };
-  if (!result.messages.empty() || any(&FieldComparison::beyond)) {
+  if (!result.messages.empty() || any(&FieldComparison::beyond))
     result.verdict = Verdict::different;
-  } else if (any(&FieldComparison::differing)) {
+  else if (any(&FieldComparison::differing))
     result.verdict = Verdict::equivalent;
-  }
   return result;
 }
 

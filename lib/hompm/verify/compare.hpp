@@ -1,12 +1,24 @@
 // Exact comparison of two run or golden folders.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace hompm::detail {
+
+/// The next double up is the next integer up; −0 comes right before +0.
+inline std::uint64_t ordered_bits(double value) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+}  // namespace hompm::detail
 
 namespace hompm {
 

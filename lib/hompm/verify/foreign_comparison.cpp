@@ -1,15 +1,9 @@
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include <hompm/effects/registry.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>
+#include <hompm/scene/scene.hpp>
 #include <hompm/verify/foreign_comparison.hpp>
-#include <hompm/verify/foreign_hints.hpp>
 #include <hompm/verify/foreign_matching.hpp>
-#include <hompm/verify/foreign_truth.hpp>
-#include <hompm/verify/particle_table.hpp>
 
 namespace hompm {
 namespace {
@@ -165,11 +159,10 @@ ForeignComparison judged(ForeignComparison result, const detail::MessageLog& fau
   const auto any = [&](auto test) { return std::ranges::any_of(result.fields, test); };
   if (result.fields.empty() && result.messages.empty())
     result.messages.emplace_back("nothing could be compared");
-  if (!result.messages.empty() || any([](const auto& f) { return f.beyond > 0 || f.beyond_exact; })) {
+  if (!result.messages.empty() || any([](const auto& f) { return f.beyond > 0 || f.beyond_exact; }))
     result.verdict = Verdict::different;
-  } else if (partial || any([](const auto& f) { return f.differing > 0 || f.particles == 0; })) {
+  else if (partial || any([](const auto& f) { return f.differing > 0 || f.particles == 0; }))
     result.verdict = Verdict::equivalent;
-  }
   return result;
 }
 
@@ -191,10 +184,9 @@ ForeignComparison compare_foreign(const fs::path& a, const fs::path& b, const Fo
   detail::ForeignTruth truth(b, notes);
   const bool alone = !truth.has_results();  // the exact solution is
   ParticleFields golden = alone ? ParticleFields() : detail::read_golden(b, faults, notes);
-  if ((alone || !options.exact.empty()) && !truth.is_known()) {
+  if ((alone || !options.exact.empty()) && !truth.is_known())
     throw OptionError((alone ? "" : "--exact: ") +
                       ("no exact solution of the scene of " + b.string() + " is known"));
-  }
   std::vector<double> times;
   for (const auto& block : golden.blocks) times.push_back(block.time);
   const double last = alone ? truth.scene()->end_time : times.back();

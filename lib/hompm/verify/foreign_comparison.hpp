@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <hompm/error.hpp>
 #include <hompm/verify/compare.hpp>
-#include <hompm/verify/error_norms.hpp>
+#include <hompm/verify/judge.hpp>
 
 namespace hompm {
 

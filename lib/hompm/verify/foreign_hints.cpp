@@ -1,13 +1,7 @@
-#include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
-#include <map>
 
 #include <hompm/number.hpp>
-#include <hompm/reference/reference.hpp>
-#include <hompm/verify/foreign_hints.hpp>
-#include <hompm/verify/judge.hpp>
+#include <hompm/verify/foreign_matching.hpp>
 
 namespace hompm::detail {
 namespace {

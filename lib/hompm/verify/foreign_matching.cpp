@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <hompm/number.hpp>
@@ -138,15 +135,11 @@ Pairs match_particles(ParticleTable& a, const ParticleBlock& mine, const Particl
                                    " of B: only the exact solution can be compared with");
     return pairs;
   }
-  if (overlap) {
+  if (overlap)
     say("overlapping bodies", "bodies of B overlap" + when + ": a column `body` has to tell which is which");
-  }
-  for (const double X : missing) {
+  for (const double X : missing)
     say("missing particles", "the particle at X = " + to_text(X) + " is missing" + when);
-  }
-  for (const double X : extra) {
-    say("extra particles", "B has no particle at X = " + to_text(X) + when);
-  }
+  for (const double X : extra) say("extra particles", "B has no particle at X = " + to_text(X) + when);
   if (furthest > 0.0) a.note("particles are matched by X to within " + to_text(furthest) + " m" + when);
   return pairs;
 }

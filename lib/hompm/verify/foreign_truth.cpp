@@ -1,9 +1,6 @@
-#include <algorithm>
-
 #include <hompm/number.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/verify/foreign_truth.hpp>
-#include <hompm/verify/judge.hpp>
+#include <hompm/verify/foreign_matching.hpp>
 
 namespace hompm::detail {
 namespace {

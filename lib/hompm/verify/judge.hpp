@@ -1,4 +1,4 @@
-// How far a run is from the exact solution of its scene.
+// How far a run is from the exact solution of its scene, over the particles.
 #pragma once
 
 #include <optional>
@@ -6,11 +6,21 @@
 #include <string>
 
 #include <hompm/reference/reference.hpp>
-#include <hompm/scene/scene.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/verify/error_norms.hpp>
 
 namespace hompm {
+
+struct ErrorNorms {
+  double relative_l2 =
+      0.0;  ///< ‖num − exact‖₂ / ‖exact‖₂; 0 when both vanish, the rms when only the exact field does
+  double rms = 0.0;  ///< √(Σ (num − exact)² / N), in the unit of the field
+  double max = 0.0;  ///< largest |num − exact|, in the unit of the field
+};
+
+/// Both spans have one entry per particle. The sums run in the order of the particles, so the bits are
+/// reproducible. A NaN among the values makes all three NaN, so that no bound on any of them can hold. All
+/// zero for no particles. Throws `Error` when the lengths differ.
+ErrorNorms error_norms(std::span<const double> numerical, std::span<const double> exact);
 
 /// Errors of the last snapshot against the reference solution.
 struct ErrorReport {
@@ -33,4 +43,5 @@ std::optional<ReferenceFields> sound_fields(const Reference& reference, double t
                                             std::span<const double> X, std::string& reason);
 
 }  // namespace detail
+
 }  // namespace hompm

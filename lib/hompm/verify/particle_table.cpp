@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>
-#include <hompm/simulation/columns.hpp>
+#include <hompm/simulation/records.hpp>
 #include <hompm/verify/particle_table.hpp>
 
 namespace hompm::detail {
@@ -233,9 +232,8 @@ ParticleFields read_golden(const std::filesystem::path& folder, MessageLog& faul
         golden.blocks[t].values.push_back(std::move(blocks[t].values[f]));
     }
   }
-  if (!any) {
+  if (!any)
     throw FileError("cannot compare with " + folder.string() + ": it holds no particles.csv or stress.csv");
-  }
   return golden;
 }
 

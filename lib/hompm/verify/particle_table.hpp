@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <hompm/verify/message_log.hpp>
 #include <hompm/verify/table.hpp>
 
 namespace hompm::detail {

@@ -4,9 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include <hompm/error.hpp>
 #include <hompm/scene_file/reader.hpp>
-#include <hompm/verify/excerpt.hpp>
 #include <hompm/verify/table.hpp>
 
 namespace hompm::detail {
@@ -108,21 +106,10 @@ struct Unit {
   double times = 1.0;
   double over = 1.0;
 };
-constexpr std::array<Unit, 33> units{{{""},
-                                      {"-"},
-                                      {"1"},
-                                      {"m"},
-                                      {"s"},
-                                      {"m/s"},
-                                      {"Pa"},
-                                      {"N/m^2"},
-                                      {"N/m2"},
-                                      {"kg/m^3"},
-                                      {"kg/m3"},
-                                      {"kg/m\u00b3"},
-                                      {"m^3"},
-                                      {"m3"},
-                                      {"km", 1e3},
+/// Names of SI units, which need no factor.
+constexpr std::array<std::string_view, 14> si_units{
+    "", "-", "1", "m", "s", "m/s", "Pa", "N/m^2", "N/m2", "kg/m^3", "kg/m3", "kg/m\u00b3", "m^3", "m3"};
+constexpr std::array<Unit, 19> units{{{"km", 1e3},
                                       {"cm", 1.0, 1e2},
                                       {"mm", 1.0, 1e3},
                                       {"um", 1.0, 1e6},
@@ -170,6 +157,36 @@ std::string known_as(std::string_view name, char direction) {
 }
 
 }  // namespace
+
+LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored))
+    throw FileError("cannot read " + path_.string() + ": not a regular file");
+  file_.open(path_, std::ios::binary);
+  if (!file_) throw FileError("read", path_, errno);
+}
+
+bool LineReader::next() {
+  file_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  if (file_.bad()) throw FileError("read", path_, errno);
+  const auto length = static_cast<std::size_t>(file_.gcount());
+  if (file_.eof() && length == 0) return false;
+  if (file_.fail())
+    throw FileError("cannot read " + path_.string() + ": line " + std::to_string(number_ + 1) +
+                    " is longer than " + std::to_string(longest_line) + " characters");
+  has_end_ = !file_.eof();
+  line_ = {buffer_.data(), has_end_ ? length - 1 : length};
+  ++number_;
+  has_carriage_return_ = line_.ends_with('\r');
+  if (has_carriage_return_) line_.remove_suffix(1);
+  return true;
+}
+
+void LineReader::rewind() {
+  file_.clear();
+  if (!file_.seekg(0)) throw FileError("read", path_, errno);
+  number_ = 0;
+}
 
 Table::Table(const std::filesystem::path& path, TableLayout layout, MessageLog& faults, MessageLog& notes)
     : layout_(std::move(layout)),
@@ -282,12 +299,14 @@ void Table::read_any_header() {
 }
 
 Table::Column Table::column_of(std::size_t index, std::string_view unit) const {
+  if (std::ranges::find(si_units, unit) != si_units.end()) return {index};
   const auto found = std::ranges::find(units, unit, &Unit::name);
   if (found != units.end()) return {index, found->times, found->over};
-  std::string known;
-  for (const auto& u : units)
-    known += u.name.size() < 2 ? "" : (known.empty() ? "" : ", ") + std::string(u.name);
-  refuse(header_line_, "the unit " + excerpt(unit) + " of a column is unknown; known are m, s, " + known);
+  std::string known = "m, s";
+  for (const std::string_view name : si_units)
+    if (name.size() > 1) known.append(", ").append(name);
+  for (const Unit& other : units) known.append(", ").append(other.name);
+  refuse(header_line_, "the unit " + excerpt(unit) + " of a column is unknown; known are " + known);
 }
 
 void Table::find_columns() {
@@ -344,10 +363,9 @@ void Table::find_columns() {
   }
   if (!others.empty()) note("columns", 0, "columns not looked at: " + others);
   time_column_ = found.back();
-  if (!time_column_ && !layout_.only_time) {
+  if (!time_column_ && !layout_.only_time)
     refuse(header_line_, "the column `time` is missing; --time T says which time of B the file is all at" +
                              (others.empty() ? "" : "; columns not looked at: " + others));
-  }
   found.pop_back();
   columns_ = std::move(found);
   has_keys_ = true;
@@ -422,11 +440,10 @@ double Table::number(const Row& row, const Column& column) {
   std::string what;
   const auto text = row.field(column.index);
   const double value = layout_.lenient ? lenient_number(text, kind, what) : finite_number(text, kind, what);
-  if (std::isnan(value) && !(repeating_ && time_column_ && column.index == time_column_->index)) {
+  if (std::isnan(value) && !(repeating_ && time_column_ && column.index == time_column_->index))
     fault(kind, row.line,
           excerpt(layout_.lenient ? trimmed(text) : text) + " in column `" +
               std::string(name_and_unit(header_[column.index]).first) + "` " + what);
-  }
   return value * column.times / column.over;
 }
 

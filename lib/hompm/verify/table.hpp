@@ -1,9 +1,10 @@
-// A table of results as text, read row by row: ours to the letter, or anybody's.
+// A table of results as text, read row by row: ours to the letter, or anybody's; and what is said about it.
 #pragma once
 
 #include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
@@ -12,11 +13,85 @@
 #include <utility>
 #include <vector>
 
-#include <hompm/verify/line_reader.hpp>
-#include <hompm/verify/message_log.hpp>
-#include <hompm/verify/ordered_bits.hpp>
+#include <hompm/verify/compare.hpp>
 
 namespace hompm::detail {
+
+/// The lines of a text file of any size, one at a time.
+class LineReader {
+ public:
+  /// Throws `FileError` when `path` cannot be opened or is not a regular file: a pipe could make the reader
+  /// wait for ever.
+  explicit LineReader(std::filesystem::path path);
+
+  /// Goes to the next line; false at the end of the file. Throws `FileError` when the file cannot be read on,
+  /// or when a line is so long that this is not a text file of ours.
+  bool next();
+  /// Goes back to before the first line. Throws `FileError`.
+  void rewind();
+
+  /// The line without its end, LF or CRLF; valid until `next`.
+  [[nodiscard]] std::string_view line() const { return line_; }
+  /// Number of the line, from 1.
+  [[nodiscard]] std::int64_t number() const { return number_; }
+  /// Whether the line ended in LF; only the last one may not.
+  [[nodiscard]] bool has_end() const { return has_end_; }
+  /// Whether the line ended in CRLF.
+  [[nodiscard]] bool has_carriage_return() const { return has_carriage_return_; }
+
+ private:
+  static constexpr std::size_t longest_line = 1 << 16;
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::vector<char> buffer_ = std::vector<char>(longest_line + 2);  // with what ends it
+  std::string_view line_;
+  std::int64_t number_ = 0;
+  bool has_end_ = true;
+  bool has_carriage_return_ = false;
+};
+
+/// The beginning of `text` in back quotes, printable whatever it holds.
+inline std::string excerpt(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  constexpr char digits[] = "0123456789abcdef";
+  std::string shown = "`";
+  for (const char c : text.substr(0, longest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) {
+      shown += c;
+    } else {
+      shown += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+    }
+  }
+  return shown + (text.size() > longest ? "`…" : "`");
+}
+
+/// Messages about files: of each kind the first few, and a count of the rest.
+class MessageLog {
+ public:
+  /// Keeps "<file> line <line>: <text>" for the first few of a kind in one file and counts the rest. `kind`
+  /// is a plural: "missing rows". Line 0 stands for the file as a whole.
+  void add(const std::string& file, const std::string& kind, std::int64_t line, const std::string& text) {
+    if (counts_[{file, kind}]++ >= shown_of_a_kind) return;
+    messages_.push_back(file + (line > 0 ? " line " + std::to_string(line) : "") + ": " + text);
+  }
+
+  /// All messages in the order in which they came, then what was only counted.
+  [[nodiscard]] std::vector<std::string> messages() const {
+    auto all = messages_;
+    for (const auto& [what, count] : counts_) {
+      if (count <= shown_of_a_kind) continue;
+      all.push_back(what.first + ": " + what.second + ": " + std::to_string(count - shown_of_a_kind) +
+                    " more");
+    }
+    return all;
+  }
+
+ private:
+  static constexpr std::int64_t shown_of_a_kind = 3;
+  std::vector<std::string> messages_;
+  std::map<std::pair<std::string, std::string>, std::int64_t> counts_;
+};
 
 /// What a row belongs to, in the order in which rows follow each other.
 struct RowKey {

@@ -8,7 +8,6 @@
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/verify/foreign_matching.hpp>
-#include <hompm/verify/foreign_truth.hpp>
 #include <hompm/verify/variants.hpp>
 
 namespace hompm {
