@@ -102,7 +102,7 @@ void read_effects(Reading& reading) {
   for (std::size_t index = 0; !reading.silent_on(effect_path(index)); ++index) {
     const std::string path = effect_path(index);
     const SaidValue& table = reading.said.values.at(path);
-    if (!std::holds_alternative<Table>(table.content)) {
+    if (!std::holds_alternative<TomlTable>(table.content)) {
       reading.report(table.value, "an effect must be a table, [[effect]], not " + shown(table.content));
       continue;
     }

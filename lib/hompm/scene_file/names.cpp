@@ -42,7 +42,7 @@ void report_unknown_option(Reading& reading, const std::string& path, const Said
 
 void report_unknown(Reading& reading, const std::string& path, const SaidValue& value) {
   if (value.key.source != reading.said.source) return report_unknown_option(reading, path, value);
-  const bool table = std::holds_alternative<Table>(value.content);
+  const bool table = std::holds_alternative<TomlTable>(value.content);
   std::string message = table ? "unknown table [" + printable(path) + ']'
                               : "unknown key `" + printable(value.name) + "` " + place(value.parent);
   const std::vector<std::string> names = names_in(value.parent);
@@ -63,7 +63,7 @@ void report_unknown(Reading& reading, const std::string& path, const SaidValue& 
 
 // Reports a table that is not one; true when its keys can be looked at.
 bool check_table(Reading& reading, const std::string& path, const SaidValue& value) {
-  if (std::holds_alternative<Table>(value.content)) return true;
+  if (std::holds_alternative<TomlTable>(value.content)) return true;
   reading.meant.insert(path);
   reading.report(value.value, '`' + path + "` must be a table, [" + path + "], not " + shown(value.content));
   return false;
@@ -71,7 +71,7 @@ bool check_table(Reading& reading, const std::string& path, const SaidValue& val
 
 void check_effect_list(Reading& reading, const SaidValue& value) {
   if (std::holds_alternative<Array>(value.content)) return;
-  const bool table = std::holds_alternative<Table>(value.content);
+  const bool table = std::holds_alternative<TomlTable>(value.content);
   reading.report(value.value, "effects are a list: write [[effect]], one for each, instead of " +
                                   (table ? "[effect]" : shown(value.content)));
 }

@@ -129,7 +129,7 @@ void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
       continue;
     }
     const Content content = parse_value(wish.value);
-    if (std::holds_alternative<Table>(content) || std::holds_alternative<Array>(content)) {
+    if (std::holds_alternative<TomlTable>(content) || std::holds_alternative<Array>(content)) {
       reading.report(origin, '`' + printable(wish.key) + "` takes one value, not " + shown(content));
     } else {
       said[*path] = {content, parent_path(*path), last_name(*path), origin, origin};

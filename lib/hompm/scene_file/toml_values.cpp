@@ -47,7 +47,7 @@ Content content_of(const toml::node& node) {
     case toml::node_type::integer: return node.as_integer()->get();
     case toml::node_type::floating_point: return node.as_floating_point()->get();
     case toml::node_type::string: return node.as_string()->get();
-    case toml::node_type::table: return Table{};
+    case toml::node_type::table: return TomlTable{};
     case toml::node_type::array: return Array{};
     default: return Moment{};
   }

@@ -71,7 +71,7 @@ std::string shown(const Content& content) {
           return toml_number(value);
         } else if constexpr (std::is_same_v<T, std::string>) {
           return '"' + printable(value) + '"';
-        } else if constexpr (std::is_same_v<T, Table>) {
+        } else if constexpr (std::is_same_v<T, TomlTable>) {
           return "a table";
         } else if constexpr (std::is_same_v<T, Array>) {
           return "an array";

@@ -14,8 +14,8 @@
 namespace hompm::detail {
 
 // What TOML has and no key of a scene can hold.
-struct Table {
-  bool operator==(const Table&) const = default;
+struct TomlTable {
+  bool operator==(const TomlTable&) const = default;
 };
 struct Array {
   bool operator==(const Array&) const = default;
@@ -25,7 +25,7 @@ struct Moment {
   bool operator==(const Moment&) const = default;
 };
 
-using Content = std::variant<bool, std::int64_t, double, std::string, Table, Array, Moment>;
+using Content = std::variant<bool, std::int64_t, double, std::string, TomlTable, Array, Moment>;
 
 /// A number as a TOML float, shortest round trip: "25.0", "1e-04"; "nan" and "inf" as TOML spells them.
 std::string toml_number(double value);
