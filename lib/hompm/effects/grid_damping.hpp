@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <hompm/plan/plan.hpp>
 
@@ -12,11 +13,12 @@ namespace hompm::detail {
 /// of balance so far and `velocity` is that of the last projection; `reads` are those that it takes. Books
 /// its impulse, and the energy −f·v Δt it takes once the velocity of the step is known.
 template <class Force>
-void join_grid_damping(const PlanBuilder& builder, const std::string& name, Fields reads, Force force_of) {
+void join_grid_damping(const PlanBuilder& builder, const std::string& name, const Fields& reads,
+                       Force force_of) {
   const Field damping = builder.field({"damping_force", "Pa", "of " + name, Site::function});
   builder.add({.name = name,
                .phase = Phase::damping_force,
-               .reads = std::move(reads),
+               .reads = reads,
                .changes = {"grid.force"_field, "balance.impulse"_field},
                .writes = {damping},
                .run = [damping, force_of](State& state) {

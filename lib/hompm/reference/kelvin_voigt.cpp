@@ -47,7 +47,7 @@ Complex integral(Complex z, const Polynomial& c) {
       of[j] = (static_cast<double>(j) * of[j - 1] - Complex{1.0, 0.0}) / z;
   } else {  // the series of the last one, and by parts downwards
     Complex term{1.0 / (degree + 1.0), 0.0};
-    for (double m = 1.0; m <= 70.0; m += 1.0) {
+    for (int m = 1; m <= 70; ++m) {
       of[degree] = of[degree] + term;
       term = (1.0 / (degree + 1.0 + m)) * (term * z);
     }
@@ -369,7 +369,7 @@ class Bar {
     }
     const double count = fineness_ * std::min(modes_at(time), most_modes);
     modes_.clear();
-    for (double k = 1.0; k <= count; k += 1.0) modes_.push_back(mode(k, time));
+    for (int k = 1; k <= count; ++k) modes_.push_back(mode(k, time));
   }
 
   [[nodiscard]] Mode mode(double k, double time) const {

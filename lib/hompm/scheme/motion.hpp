@@ -285,7 +285,7 @@ void join_stretch_from_positions(const Material& material, const StageBuilder& b
 /// `kernel` of the law, or of none.
 template <class Kernel>
 void join_straining(Phase phase, const std::string& name, const Material& material, Fields changes,
-                    Fields writes, const StageBuilder& builder, Kernel kernel) {
+                    const Fields& writes, const StageBuilder& builder, Kernel kernel) {
   const bool from_stretch = builder.scheme.choices.stress_update == StressUpdate::from_stretch;
   changes.push_back("particles.stretch"_field);
   if (!from_stretch) changes.push_back("particles.stress"_field);

@@ -15,7 +15,7 @@ double kinetic_energy(const Particles& particles);
 /// that damps does so in steps; after least squares the velocity at the start is projected, too.
 template <class Change>
 void join_velocity_change(const StageBuilder& builder, const std::string& name, Change change,
-                          Fields scratch = {}) {
+                          const Fields& scratch = {}) {
   const bool keeps_what_the_grid_sees =
       builder.scheme.choices.velocity_projection == VelocityProjection::least_squares;
   builder.add(
@@ -23,7 +23,7 @@ void join_velocity_change(const StageBuilder& builder, const std::string& name, 
        .phase = keeps_what_the_grid_sees ? Phase::velocity : Phase::transfer,
        .reads = {"particles.mass"_field, "basis.first"_field, "basis.values"_field, "grid.velocity"_field},
        .changes = {"particles.velocity"_field, "balance.dissipated"_field, "balance.impulse"_field},
-       .writes = std::move(scratch),
+       .writes = scratch,
        .run = [change](State& state) {
          const double before = kinetic_energy(state.particles);
          change(state);

@@ -124,6 +124,11 @@ bool is_told(const ParticleFields& mine, const std::string& field, const std::op
   return mine.has(field);
 }
 
+std::string unread(const std::string& column, const std::string& field) {
+  return "the column `" + column + "` looks like " + field + " and is not read; --column " + field + "=" +
+         column + " reads it, --fields says which fields are wanted";
+}
+
 /// What has to be in A and is not, and what is in A and not read.
 void check_columns(const ForeignOptions& options, ParticleTable& table, const ParticleFields& mine,
                    const ParticleFields& golden, const std::optional<Scene>& scene,
@@ -133,9 +138,7 @@ void check_columns(const ForeignOptions& options, ParticleTable& table, const Pa
   };
   for (const auto& [column, field] : table.table().lookalikes()) {
     if (asked(field) && std::ranges::find(foreign_fields(), field) != foreign_fields().end())
-      table.fault("unread columns", "the column `" + column + "` looks like " + field +
-                                        " and is not read; --column " + field + "=" + column +
-                                        " reads it, --fields says which fields are wanted");
+      table.fault("unread columns", unread(column, field));
   }
   for (const auto& field : foreign_fields()) {
     const bool bounded = options.tolerances.contains(field) || options.exact.contains(field);

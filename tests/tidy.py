@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""clang-tidy over the sources of lib/ and cli/, many read as one.
+
+    tests/tidy.py BUILD    BUILD: a build folder with compile_commands.json, configured by clang++
+
+Most of clang-tidy's time goes into headers, which it reads and searches anew for each source. Sources whose local names differ are
+put together in one, not included, since some checks look at no file but the main one; where that does not compile, each is read by itself.
+Exit code 1: a finding.
+"""
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LOCAL = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
+NAME = re.compile(r"^(?:template\b.*>\s+)?(?:(?:struct|class|enum(?: class)?) (\w+)|(?!using |namespace )[A-Za-z].*?(\w+) ?[({=])",
+                  re.MULTILINE)
+LARGEST = 4000  # lines of sources in one: the first and largest bounds how long all take
+
+
+def local_names(text):
+    return {match[1] or match[2] for part in LOCAL.findall(text) for match in NAME.finditer(part)}
+
+
+def unified(entries):
+    """Sources in groups, none of which has a local name twice."""
+    groups = []  # [entries, names, lines]
+    for entry in entries:
+        text = pathlib.Path(entry["file"]).read_text(encoding="utf-8")
+        names, lines = local_names(text), text.count("\n")
+        for group in groups:
+            if not group[1] & names and group[2] + lines <= LARGEST:
+                break
+        else:
+            groups.append(group := [[], set(), 0])
+        group[0].append(entry)
+        group[1] |= names
+        group[2] += lines
+    return [group[0] for group in sorted(groups, key=lambda group: -group[2])]
+
+
+def tidy(folder, file):
+    done = subprocess.run(["clang-tidy", "-p", folder, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "--warnings-as-errors=*", file],
+                          capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout
+
+
+def unify(source, group):
+    """Writes the sources of a group as one, each header in the first that includes it, and gives the file and line of each line."""
+    places, lines, included = [], [], set()
+    for entry in group:
+        text = pathlib.Path(entry["file"]).read_text(encoding="utf-8").splitlines()
+        lines += ["" if line in included else line for line in text]
+        places += [f"{entry['file']}:{number}" for number in range(1, len(text) + 1)]
+        included |= {line for line in text if line.startswith("#include")}
+    source.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return places
+
+
+def check(folder, number, group):
+    """What is found in a group of sources."""
+    source = folder / f"{number}.cpp"
+    places = unify(source, group)
+    code, found = tidy(folder, source)
+    if "clang-diagnostic-error" in found and len(group) > 1:
+        print(f"tidy: {len(group)} sources do not compile as one, which takes longer: {found.splitlines()[0]}", flush=True)
+        results = [tidy(folder, entry["file"]) for entry in group]
+        return max(code for code, _ in results), "".join(found for _, found in results)
+    return code, re.sub(re.escape(str(source)) + r":(\d+)", lambda match: places[int(match[1]) - 1], found)
+
+
+def main():
+    build = pathlib.Path(sys.argv[1]).resolve()
+    wanted = set(subprocess.run(["git", "ls-files", "lib/*.cpp", "cli/*.cpp"], cwd=ROOT, capture_output=True, text=True,
+                                check=True).stdout.split())
+    entries = [entry for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+               if entry["file"] in {str(ROOT / name) for name in wanted}]
+    if len(entries) != len(wanted):
+        sys.exit(f"tidy: {build} builds {len(entries)} of {len(wanted)} sources; configure it anew")
+    folders = collections.defaultdict(list)
+    for entry in entries:
+        folders[str(pathlib.Path(entry["file"]).relative_to(ROOT)).split("/")[0]].append(entry)
+    groups = [group for part in folders.values() for group in unified(part)]
+    folder = build / "tidy"
+    folder.mkdir(exist_ok=True)
+    database = entries + [dict(group[0], file=str(folder / f"{number}.cpp"), command=group[0]["command"].replace(
+        group[0]["file"], f"{folder / f'{number}.cpp'} -I{ROOT / 'cli'}")) for number, group in enumerate(groups)]
+    (folder / "compile_commands.json").write_text(json.dumps(database), encoding="utf-8")
+    worst = 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for code, found in pool.map(lambda item: check(folder, *item), enumerate(groups)):
+            print(found, end="", flush=True)
+            worst |= int(code != 0)
+    return worst
+
+
+if __name__ == "__main__":
+    sys.exit(main())
