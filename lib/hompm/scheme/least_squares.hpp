@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <hompm/scheme/consistent_mass.hpp>
+#include <hompm/scheme/gauss_points.hpp>
 #include <hompm/scheme/particle_transfer.hpp>
 
 namespace hompm::detail {
@@ -23,9 +24,7 @@ template <int P>
 class LeastSquares : public Cloned<Workspace, LeastSquares<P>> {
  public:
   LeastSquares(const State& state, const SchemeChoices& choices)
-      : extended_(choices.free_end == FreeEnd::extension),
-        normal_(state, choices),
-        weight_(state.particles.mass) {
+      : normal_(state, choices), weight_(state.particles.mass) {
     if (!choices.markers || choices.conserve == Conserve::momentum) return;
     constexpr double share = 0.1;
     weight_.front() = share * weight_[1];
@@ -57,13 +56,16 @@ class LeastSquares : public Cloned<Workspace, LeastSquares<P>> {
       for (std::size_t i = 0; i < stencil; ++i)
         for (std::size_t j = 0; j <= i; ++j) normal_.entry(f + i, f + j) = block[i][j];
     }
-    // On a breakpoint the last particle is taken to be in the cell beyond, of whose last function it touches
-    // nothing. Such a function is not determined. One that is tied is; but the mass does not reach there, and
-    // a function that it lacks moves on for ever without a force, unless the body moves: then for a step.
-    const bool touches_nothing =
-        !(state.moves && extended_) && state.basis.values[count * stencil - 1] == 0.0;
-    normal_.factorise(state, static_cast<std::size_t>(first[0]),
-                      static_cast<std::size_t>(first[count - 1]) + stencil - (touches_nothing ? 1 : 0));
+    // Of the cell beyond a breakpoint that an outer particle is on it touches nothing, as the mass does: a
+    // body and its mirror image have the same functions.
+    const auto& x = state.particles.position;
+    const double hair = rounding_of_ends * state.grid.cell_width();
+    const bool splines = state.grid.degree() == P;
+    const bool none_before = splines && x.front() > state.grid.breakpoint(first[0] + 1) - hair;
+    const bool none_behind = splines ? x.back() < state.grid.breakpoint(first[count - 1]) + hair
+                                     : state.basis.values[count * stencil - 1] == 0.0;
+    normal_.factorise(state, static_cast<std::size_t>(first[0]) + (none_before ? 1 : 0),
+                      static_cast<std::size_t>(first[count - 1]) + stencil - (none_behind ? 1 : 0));
   }
 
   /// The field for one entry of `data` per particle. Returns what fixed ends add to Σ w_p q_p.
@@ -75,7 +77,6 @@ class LeastSquares : public Cloned<Workspace, LeastSquares<P>> {
   }
 
  private:
-  bool extended_;
   ConsistentMass<P> normal_;
   std::vector<double> weight_;
 };
