@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <hompm/effects/effects.hpp>
 #include <hompm/effects/grid_damping.hpp>
@@ -6,9 +7,26 @@
 namespace hompm::detail {
 namespace {
 
-/// f_i = −α |f_i| sign(v_i), f_i out of balance (Tielen et al. 2017; Cundall 1987).
+/// f_i = −α |f_i| sign(v_i), f_i out of balance (Tielen et al. 2017; Cundall 1987). What acts on a function
+/// that is tied is balanced by the forces on those that carry it, and does not vanish at rest.
 void join(const EffectSpec& spec, const PlanBuilder& builder) {
-  join_grid_damping(builder, "local damping", {"grid.velocity"_field},
+  Fields reads{"grid.velocity"_field};
+  Field acting = "grid.force"_field;
+  if (const auto& discretisation = builder.discretisation; discretisation->ties()) {
+    acting = builder.field({"force_out_of_balance", "Pa", "of functions that move", Site::function});
+    Stage stage{.name = "out-of-balance force of functions that move",
+                .phase = Phase::damping_force,
+                .reads = discretisation->reads(),
+                .writes = {acting},
+                .run = [discretisation, acting](State& state) {
+                  state[acting] = state.fields.force;
+                  discretisation->untie(state, state[acting]);
+                }};
+    stage.reads.push_back("grid.force"_field);
+    builder.add(std::move(stage));
+    reads.push_back(acting);
+  }
+  join_grid_damping(builder, "local damping", std::move(reads), acting,
                     [alpha = spec.number("coefficient")](double, double force, double velocity) {
                       if (velocity == 0.0) return 0.0;
                       return velocity > 0.0 ? -alpha * std::abs(force) : alpha * std::abs(force);

@@ -14,7 +14,7 @@ void join(const EffectSpec& spec, const PlanBuilder& builder) {
                  .writes = {"grid.momentum"_field},
                  .run = [grid](State& state) { grid->find_momentum(state); }});
   join_grid_damping(
-      builder, "mass-proportional damping", {"grid.momentum"_field},
+      builder, "mass-proportional damping", {"grid.momentum"_field}, "grid.force"_field,
       [rate = spec.number("rate")](double momentum, double, double) { return -rate * momentum; });
 }
 

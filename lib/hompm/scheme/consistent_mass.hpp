@@ -64,6 +64,16 @@ class ConsistentMass {
     if (const std::size_t row = matrix_.factorise(begin_, end_); row != end_) throw_singular_mass(state, row);
   }
 
+  /// Moves what acts on a tied function to those it is tied to: Cᵀ f.
+  void untie(std::vector<double>& force) const {
+    const auto move = [&](std::size_t j, int direction) {
+      gather_tied(force, j, direction);
+      force[j] = 0.0;
+    };
+    if (tied_left_) move(touched_begin_, +1);
+    if (tied_right_) move(touched_end_ - 1, -1);
+  }
+
   /// Solves M x = b for the field `x`, which holds b on entry; fixed functions and those without material get
   /// zero. Returns what the conditions at fixed ends add to Σ b: the sum of the reactions.
   double solve(std::vector<double>& x) const {

@@ -54,6 +54,8 @@ class Reconstruction : public Workspace {
   virtual void momentum(const std::vector<double>& velocity, std::vector<double>& b) = 0;
   /// Solves Σ_j M_ij a_j = f_i in place; returns the sum of the reactions at fixed ends (Pa).
   virtual double solve(std::vector<double>& force_to_acceleration) = 0;
+  /// Cᵀ f: what acts on functions that are tied goes to those they are tied to (consistent_mass.hpp).
+  virtual void untie(std::vector<double>& force) const = 0;
 };
 
 /// `Sites` makes functions of particle data, used as numerics::CubicSplineSites. One factorisation serves
@@ -171,6 +173,8 @@ class ReconstructionFrom final : public Cloned<Reconstruction, ReconstructionFro
   double solve(std::vector<double>& force_to_acceleration) override {
     return mass_.solve(force_to_acceleration);
   }
+
+  void untie(std::vector<double>& force) const override { mass_.untie(force); }
 
  private:
   using Points = GaussPoints<P, PerHalf>;

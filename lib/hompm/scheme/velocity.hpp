@@ -104,6 +104,10 @@ class Discretised final : public Discretisation {
     return choices_.acceleration_mass == MassForm::lumped ? divide_impulses(state, impulses)
                                                           : splines_.of(state).solve(impulses);
   }
+  [[nodiscard]] bool ties() const override {
+    return choices_.acceleration_mass == MassForm::consistent && choices_.free_end == FreeEnd::extension;
+  }
+  void untie(State& state, std::vector<double>& forces) const override { splines_.of(state).untie(forces); }
   [[nodiscard]] bool keeps_momentum() const override {
     return choices_.velocity_projection != VelocityProjection::least_squares &&
            choices_.sequence == Sequence::musl;
