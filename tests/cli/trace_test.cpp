@@ -83,7 +83,7 @@ TEST_CASE("what cannot be traced or compared: exit 2 or 5 and the reason") {
                 2},
         Refused{diff + "text text", "cannot read text: it is not a trace of hompm-run --trace", 5},
         Refused{diff + "none text", "cannot read none: No such file", 5},
-        Refused{diff + ". text", "cannot read .: Is a directory", 5},
+        Refused{diff + ". text", "cannot read .: it is a folder", 5},
         Refused{diff + "--ulps all=1 text text", "--trace compares bits: it takes no --ulps", 2},
         Refused{diff + "text", "two", 2}}) {
     const auto done = run_command("cd " + quoted(scratch.path().string()) + " && " + command);

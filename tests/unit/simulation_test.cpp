@@ -68,9 +68,9 @@ TEST_CASE("rigid flight over 50 cells is exact to rounding, for every scheme and
     for (int step = 0; step < steps; ++step) simulation.step();
     for (std::size_t i = 0; i < p.size(); ++i) {
       // A cut span of fraction ε amplifies the rounding of its own coefficient, and its basis value takes
-      // that back.
+      // that back, but for what the first function, (1 - s)^p/p! in the first cell, loses with p = 5.
       CHECK(std::abs(p.displacement[i] - 3.125) <= 1e-12);
-      CHECK(std::abs(p.velocity[i] - 2.5) <= 1e-12);
+      CHECK(std::abs(p.velocity[i] - 2.5) <= (degree < 5 ? 1e-12 : 2e-12));
       CHECK(std::abs(p.stretch[i] - 1.0) <= 1e-11);
     }
   }

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <utility>
 
 #include <hompm/effects/effects.hpp>
 #include <hompm/effects/grid_damping.hpp>
@@ -26,7 +25,7 @@ void join(const EffectSpec& spec, const PlanBuilder& builder) {
     builder.add(std::move(stage));
     reads.push_back(acting);
   }
-  join_grid_damping(builder, "local damping", std::move(reads), acting,
+  join_grid_damping(builder, "local damping", reads, acting,
                     [alpha = spec.number("coefficient")](double, double force, double velocity) {
                       if (velocity == 0.0) return 0.0;
                       return velocity > 0.0 ? -alpha * std::abs(force) : alpha * std::abs(force);
