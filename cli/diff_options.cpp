@@ -106,7 +106,8 @@ ForeignOptions read_foreign_options(const CommandLine& given) {
     std::istringstream names(list);
     for (std::string field; std::getline(names, field, ',');) {
       if (std::ranges::find(fields, field) == fields.end())
-        throw UsageError("--fields " + list + ": no field is called " + field + suggestion(field, fields));
+        throw UsageError(std::string("--fields ").append(list).append(": no field is called ").append(field) +
+                         suggestion(field, fields));
       options.fields.push_back(field);
     }
   }

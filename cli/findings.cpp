@@ -40,7 +40,7 @@ std::string lines(const char* head, const std::vector<std::string>& texts) {
 
 // --- two folders
 
-Json json_of(const Difference& d) {
+Json object_of(const Difference& d) {
   Json object{{"file", d.file}, {"field", d.field}, {"time", d.time}};
   if (d.particle >= 0) object["particle"] = d.particle;
   object.update({{"a", d.a}, {"b", d.b}, {"ulps", d.ulps}});
@@ -70,7 +70,7 @@ std::string over(const std::optional<ErrorNorms>& norms, double ErrorNorms::*whi
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-Json json_of(const std::optional<ErrorNorms>& norms) {
+Json object_of(const std::optional<ErrorNorms>& norms) {
   if (!norms) return {};
   return {{"rms", number(norms->rms)}, {"max", number(norms->max)}};
 }
@@ -144,7 +144,7 @@ std::string agreement_text(const ForeignComparison& found, bool exact) {
 
 // --- traces
 
-std::string text_of(const TraceDifference& d) {
+std::string difference_text(const TraceDifference& d) {
   std::ostringstream out;
   out << "first difference: step " << d.step;
   if (d.part > 1) out << ", part " << d.part << " of it";
@@ -167,7 +167,7 @@ std::string text_of(const TraceDifference& d) {
   return out.str() + "\n";
 }
 
-Json json_of(const TraceDifference& d) {
+Json object_of(const TraceDifference& d) {
   Json json{
       {"step", d.step}, {"part", d.part}, {"stage", d.stage}, {"called_by", d.called_by}, {"field", d.field}};
   if (d.body) json["body"] = *d.body;
@@ -243,7 +243,7 @@ std::string text_of(const ForeignComparison& found) {
 
 std::string text_of(const TraceComparison& found) {
   std::ostringstream out;
-  out << verdict(found) << "\n" << (found.first ? text_of(*found.first) : "");
+  out << verdict(found) << "\n" << (found.first ? difference_text(*found.first) : "");
   if (found.identical)
     out << "steps " << found.first_step << " to " << found.last_step << ": every field after every stage\n";
   out << lines("", found.messages) << lines("note: ", found.notes);
@@ -258,10 +258,11 @@ std::string json_of(const Comparison& found, const std::string& a, const std::st
                       {"values", f.values},
                       {"differing", f.differing},
                       {"beyond", f.beyond},
-                      {"worst", f.differing > 0 ? json_of(f.worst) : Json()}});
+                      {"worst", f.differing > 0 ? object_of(f.worst) : Json()}});
   Json object = head(found, a, b);
-  object.update(
-      {{"notes", found.notes}, {"first", found.first ? json_of(*found.first) : Json()}, {"fields", fields}});
+  object.update({{"notes", found.notes},
+                 {"first", found.first ? object_of(*found.first) : Json()},
+                 {"fields", fields}});
   return dumped(object);
 }
 
@@ -277,9 +278,9 @@ std::string json_of(const ForeignComparison& found, const std::string& a, const 
                       {"beyond_exact", f.beyond_exact},
                       {"fails", f.beyond > 0 || f.beyond_exact},
                       {"worst_X", f.differing > 0 ? Json(f.worst_X) : Json()},
-                      {"difference", f.particles > 0 ? json_of(f.difference) : Json()},
-                      {"error", json_of(f.error)},
-                      {"golden_error", json_of(f.golden_error)}});
+                      {"difference", f.particles > 0 ? object_of(f.difference) : Json()},
+                      {"error", object_of(f.error)},
+                      {"golden_error", object_of(f.golden_error)}});
   }
   Json digits = Json::object();
   for (const auto& a_field : agreements(found, false)) digits[a_field.field] = number(a_field.digits);
@@ -297,7 +298,7 @@ std::string json_of(const ForeignComparison& found, const std::string& a, const 
 
 std::string json_of(const TraceComparison& found, const std::string& a, const std::string& b) {
   Json object = head(found, a, b);
-  object.update({{"notes", found.notes}, {"first", found.first ? json_of(*found.first) : Json()}});
+  object.update({{"notes", found.notes}, {"first", found.first ? object_of(*found.first) : Json()}});
   return dumped(object);
 }
 

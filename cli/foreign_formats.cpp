@@ -418,7 +418,7 @@ TableFile::TableFile(const std::string& name, char direction, double step)
 }
 
 void TableFile::spool(const std::string& text) {
-  file_.reset(std::tmpfile());
+  file_.reset(std::tmpfile());  // NOLINT(cppcoreguidelines-owning-memory): it does own it
   if (!file_ || std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() ||
       std::fflush(file_.get()) != 0)
     throw FileError("write a temporary file for", name_, errno);

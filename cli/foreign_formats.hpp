@@ -21,7 +21,7 @@ class TableFile {
 
  private:
   struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+    void operator()(std::FILE* file) const { std::fclose(file); }  // NOLINT(cppcoreguidelines-owning-memory)
   };
   using File = std::unique_ptr<std::FILE, Close>;
   void spool(const std::string& text);

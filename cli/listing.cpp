@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A member that is a text.
-const std::string& text_of(const Json& object, const char* member) {
+const std::string& text_in(const Json& object, const char* member) {
   return object[member].get_ref<const std::string&>();
 }
 
@@ -161,7 +161,7 @@ std::string uses_text(const Json& stage) {
 
 /// "scheme tielen2017 (my.toml:3:1)" is said in short where it calls, and in full once.
 std::string caller(const Json& stage, std::vector<std::string>& callers) {
-  const std::string& full = text_of(stage, "for");
+  const std::string& full = text_in(stage, "for");
   if (std::ranges::find(callers, full) == callers.end()) callers.push_back(full);
   return full.substr(0, full.find(" ("));
 }
@@ -177,27 +177,27 @@ std::string explanation_text(const Json& all) {
     std::string phase;
     int number = 0;
     for (const Json& stage : bodies[body]["stages"]) {
-      if (phase != text_of(stage, "phase")) {
-        phase = text_of(stage, "phase");
+      if (phase != text_in(stage, "phase")) {
+        phase = text_in(stage, "phase");
         const bool once = phase == "geometry" && !bodies[body]["moves"].get<bool>();
         text += phase + (once ? " (once: nothing moves)\n" : "\n");
       }
-      const std::string head = padded("  " + std::to_string(++number) + ".", 6) + text_of(stage, "name");
+      const std::string head = padded("  " + std::to_string(++number) + ".", 6) + text_in(stage, "name");
       text += padded(head, 52) + "for " + caller(stage, callers) + "\n";
       text += uses_text(stage);
     }
     if (!bodies[body]["fields"].empty()) text += "fields of its own\n";
     for (const Json& field : bodies[body]["fields"])
-      text += wrapped("  " + with_unit(text_of(field, "name"), text_of(field, "unit")), 36,
-                      text_of(field, "meaning") + (field["persists"].get<bool>() ? "" : "; scratch") +
+      text += wrapped("  " + with_unit(text_in(field, "name"), text_in(field, "unit")), 36,
+                      text_in(field, "meaning") + (field["persists"].get<bool>() ? "" : "; scratch") +
                           (field["reported"].get<bool>() ? "; reported" : ""));
   }
   if (!all["couplings"].empty()) text += "between bodies\n";
   for (const Json& coupling : all["couplings"])
-    text += padded("  " + text_of(coupling, "name"), 52) + "for " + caller(coupling, callers) + "\n" +
+    text += padded("  " + text_in(coupling, "name"), 52) + "for " + caller(coupling, callers) + "\n" +
             wrapped("", 8,
                     "of bodies " + coupling["bodies"][0].dump() + " and " + coupling["bodies"][1].dump() +
-                        ", at the end of the phase " + text_of(coupling, "phase")) +
+                        ", at the end of the phase " + text_in(coupling, "phase")) +
             uses_text(coupling);
   text += "called for by\n";
   for (const std::string& full : callers) text += wrapped("", 2, full);
@@ -234,12 +234,12 @@ std::string critical_steps_text(const Json& bodies) {
   std::string text;
   std::array<char, 96> line{};
   for (const Json& body : bodies) {
-    const std::string head = text_of(body, "scheme") + ", p = " + body["degree"].dump() + ", " +
+    const std::string head = text_in(body, "scheme") + ", p = " + body["degree"].dump() + ", " +
                              body["particles_per_cell"].dump() + " particles per cell";
     std::snprintf(line.data(), line.size(), "%-46s %10s %8s\n", head.c_str(), "step, s", "c dt/h");
     text += line.data();
     for (const Json& limit : body["limits"]) {
-      std::snprintf(line.data(), line.size(), "  %-44s %10.4g %8.4f\n", text_of(limit, "where").c_str(),
+      std::snprintf(line.data(), line.size(), "  %-44s %10.4g %8.4f\n", text_in(limit, "where").c_str(),
                     limit["step"].get<double>(), limit["courant"].get<double>());
       text += line.data();
     }

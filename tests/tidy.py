@@ -3,8 +3,8 @@
 
     tests/tidy.py BUILD    BUILD: a build folder with compile_commands.json, configured by clang++
 
-Most of clang-tidy's time goes into headers, which it reads and searches anew for each source. Sources whose local names differ are
-put together in one, not included, since some checks look at no file but the main one; where that does not compile, each is read by itself.
+Most of clang-tidy's time goes into headers, which it reads and searches anew for each source. So many are put together in one, not
+included, since some checks look at no file but the main one; where that does not compile, each is read by itself.
 Exit code 1: a finding.
 """
 import collections
@@ -20,28 +20,21 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 LOCAL = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
 NAME = re.compile(r"^(?:template\b.*>\s+)?(?:(?:struct|class|enum(?: class)?) (\w+)|(?!using |namespace )[A-Za-z].*?(\w+) ?[({=])",
                   re.MULTILINE)
-LARGEST = 4000  # lines of sources in one: the first and largest bounds how long all take
+LARGEST = 4500  # lines of sources in one, about
 
 
 def local_names(text):
-    return {match[1] or match[2] for part in LOCAL.findall(text) for match in NAME.finditer(part)}
+    return {"main"} | {match[1] or match[2] for part in LOCAL.findall(text) for match in NAME.finditer(part)}
 
 
-def unified(entries):
-    """Sources in groups, none of which has a local name twice."""
-    groups = []  # [entries, names, lines]
-    for entry in entries:
-        text = pathlib.Path(entry["file"]).read_text(encoding="utf-8")
-        names, lines = local_names(text), text.count("\n")
-        for group in groups:
-            if not group[1] & names and group[2] + lines <= LARGEST:
-                break
-        else:
-            groups.append(group := [[], set(), 0])
-        group[0].append(entry)
-        group[1] |= names
-        group[2] += lines
-    return [group[0] for group in sorted(groups, key=lambda group: -group[2])]
+def in_groups(entries):
+    """Sources in groups of about the same size."""
+    sizes = {entry["file"]: pathlib.Path(entry["file"]).read_text(encoding="utf-8").count("\n") for entry in entries}
+    count = -(-sum(sizes.values()) // LARGEST)
+    groups = [[] for _ in range(count)]
+    for entry in sorted(entries, key=lambda entry: -sizes[entry["file"]]):
+        min(groups, key=lambda group: sum(sizes[one["file"]] for one in group)).append(entry)
+    return groups
 
 
 def tidy(folder, file):
@@ -51,10 +44,16 @@ def tidy(folder, file):
 
 
 def unify(source, group):
-    """Writes the sources of a group as one, each header in the first that includes it, and gives the file and line of each line."""
-    places, lines, included = [], [], set()
-    for entry in group:
-        text = pathlib.Path(entry["file"]).read_text(encoding="utf-8").splitlines()
+    """Writes the sources of a group as one, each header in the first that includes it, and gives the file and line of each line.
+    A local name that is taken gets a number."""
+    places, lines, included, taken = [], [], set(), set()
+    for number, entry in enumerate(group):
+        text = pathlib.Path(entry["file"]).read_text(encoding="utf-8")
+        names = local_names(text)
+        for name in names & taken:
+            text = re.sub(rf"(?<![.\w:\"/])(?<!->){name}\b(?![\w/]*\.hpp)", f"{name}_{number}", text)
+        taken |= names
+        text = text.splitlines()
         lines += ["" if line in included else line for line in text]
         places += [f"{entry['file']}:{number}" for number in range(1, len(text) + 1)]
         included |= {line for line in text if line.startswith("#include")}
@@ -85,11 +84,11 @@ def main():
     folders = collections.defaultdict(list)
     for entry in entries:
         folders[str(pathlib.Path(entry["file"]).relative_to(ROOT)).split("/")[0]].append(entry)
-    groups = [group for part in folders.values() for group in unified(part)]
+    groups = [group for part in folders.values() for group in in_groups(part)]
     folder = build / "tidy"
     folder.mkdir(exist_ok=True)
     database = entries + [dict(group[0], file=str(folder / f"{number}.cpp"), command=group[0]["command"].replace(
-        group[0]["file"], f"{folder / f'{number}.cpp'} -I{ROOT / 'cli'}")) for number, group in enumerate(groups)]
+        group[0]["file"], f"{folder / f'{number}.cpp'} -I{ROOT / 'cli'} -Wno-shadow")) for number, group in enumerate(groups)]
     (folder / "compile_commands.json").write_text(json.dumps(database), encoding="utf-8")
     worst = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -128,7 +128,8 @@ Changes neighbours(const Scene& scene) {
 
 std::vector<Override> overrides(const Changes& changes) {
   std::vector<Override> all;
-  for (const auto& [key, value] : changes) all.push_back({key, value, "--set " + key + "=" + value});
+  for (const auto& [key, value] : changes)
+    all.push_back({key, value, std::string("--set ").append(key).append("=").append(value)});
   return all;
 }
 
