@@ -134,7 +134,7 @@ Verdict compare_file(const CommandLine& given, const std::string& file, const st
 Verdict compare(const CommandLine& given) {
   const auto& names = given.arguments;
   if (names.size() != 2)
-    throw UsageError("two folders to compare are needed, not " + std::to_string(names.size()));
+    throw UsageError("A and B to compare are needed, not " + std::to_string(names.size()));
   if (given.has("quiet") && given.has("json")) throw UsageError("--quiet and --json contradict each other");
   std::error_code missing;  // then it is nothing, and reading it says why
   const auto is_folder = [&](const std::string& name) {

@@ -85,7 +85,7 @@ study::Study study_of(const CommandLine& given) {
   for (const auto& text : given.texts("set")) {
     const auto [key, value] = key_and_value(text);
     const std::string where = "--set " + text;
-    study.settings.push_back({study::full_key(key, where), study::canonical_value(value, where)});
+    study.settings.push_back({study::full_key(key, where), study::canonical_value(value, where), where});
   }
   study::Sweep sweep;
   for (const auto& text : given.texts("vary"))
@@ -96,6 +96,12 @@ study::Study study_of(const CommandLine& given) {
     }
   if (!sweep.empty()) study.sweeps = {sweep};
   if (study.sweeps.empty()) study.sweeps = study::usual_sweeps();
+  for (const auto& text : given.texts("set"))
+    for (const study::Sweep& varied : study.sweeps)
+      if (const auto key = study::full_key(key_and_value(text).first, text);
+          std::ranges::find(varied, key, &study::Axis::key) != varied.end())
+        throw UsageError("--set " + text + ": " + study::short_key(key) +
+                         " is varied: leave one of them out");
   return study;
 }
 

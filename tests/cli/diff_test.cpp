@@ -182,7 +182,7 @@ TEST_CASE("hompm-diff refuses a command line it does not understand", "[diff]") 
       {"--ulps --json", "the value of --ulps is missing: --json is an option"},
       {"--quiet --json", "contradict"},
       {"--json=yes", "--json"},
-      {"third", "two folders to compare are needed, not 3"},
+      {"third", "A and B to compare are needed, not 3"},
   };
   for (const auto& [options, message] : wrong) {
     const auto result = runs.diff(options);

@@ -224,6 +224,14 @@ TEST_CASE("hompm-study says what is wrong with its options, and runs nothing") {
   CHECK_THAT(complaint("--case bar --vary cels=8"), contains("did you mean `cells`?"));
   CHECK_THAT(complaint("--case bar --vary scheme=bspine"), contains("did you mean \"bspline\"?"));
   CHECK_THAT(complaint("--case bar --vary cells --vary cells=8"), contains("--vary names cells twice"));
+  CHECK_THAT(complaint("--case bar --variant small --set scheme.cells=8 --vary cells=4,8"),
+             contains("--set scheme.cells=8: cells is varied"));
+  CHECK_THAT(complaint("--case bar --variant small --set end_time=0 --vary cells=4"),
+             contains("--set end_time=0: `end_time` must be"));
+  CHECK_THAT(complaint("--case bar --variant small --vary cells=4,-8"),
+             contains("--vary cells=4,-8: `scheme.cells` must be"));
+  write_file(folder / "wrong.toml", "case = \"bar\"\n[set]\nend_time = 0\n[[sweep]]\ncells = 4\n");
+  CHECK_THAT(complaint("--study wrong.toml"), contains("wrong.toml:3:12: `end_time` must be"));
   CHECK_THAT(complaint("--case bar --set cells"), contains("expected KEY=VALUE"));
   CHECK_THAT(complaint("--jobs 2"), contains("nothing to study"));
   CHECK_THAT(complaint("--case bar --study x.toml"), contains("exclude each other"));

@@ -273,7 +273,8 @@ TEST_CASE("what cannot be read is an error with path and reason", "[compare]") {
   CHECK(message(pair.a, missing) == "cannot read " + missing.string() + ": No such file or directory");
   CHECK(contains(message(pair.a / "stress.csv", pair.b), ": Not a directory"));
   fs::create_directories(pair.folder / "empty/too");
-  CHECK(contains(message(pair.folder / "empty", pair.folder / "empty/too"), "holds particles.csv"));
+  CHECK(contains(message(pair.folder / "empty", pair.folder / "empty/too"), "empty holds no particles.csv"));
+  CHECK(contains(message(pair.a, pair.folder / "empty"), "empty holds no particles.csv"));
 
   const auto file = pair.a / "stress.csv";
   fs::remove(file);

@@ -28,6 +28,19 @@ TEST_CASE("error norms do not divide by a vanishing exact field", "[error_norms]
   CHECK(error_norms(Values{}, Values{}).max == 0.0);
 }
 
+TEST_CASE("error norms of tiny and huge fields are those of others, scaled", "[error_norms]") {
+  // Squares of 2^-600 vanish, those of 2^600 are infinite; 2^-1060 is subnormal.
+  for (const double scale : {0x1p-1060, 0x1p-600, 0x1p600, 0x1p1000}) {
+    const auto norms = error_norms(Values{4.0 * scale, 0.0, 3.0 * scale}, Values{0.0, -12.0 * scale, 0.0});
+    CHECK(norms.max == 12.0 * scale);
+    CHECK(norms.rms == std::sqrt(169.0 / 3.0) * scale);
+    CHECK(norms.relative_l2 == std::sqrt(169.0 / 144.0));
+  }
+  const auto small = error_norms(Values{2.0 + 0x1p-51}, Values{2.0});
+  CHECK(small.relative_l2 == 0x1p-52);
+  CHECK(error_norms(Values{0x1p1000}, Values{0x1p1000}).rms == 0.0);
+}
+
 TEST_CASE("no error norm of a field with a NaN passes any bound", "[error_norms]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& values : {Values{nan, 1.0, 1.0}, Values{1.0, nan, 1.0}, Values{1.0, 1.0, nan}}) {

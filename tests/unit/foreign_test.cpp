@@ -652,6 +652,6 @@ TEST_CASE("mistakes are named", "[foreign]") {
     CHECK(result.verdict == Verdict::different);
     REQUIRE_FALSE(result.hints.empty());
     CHECK(std::any_of(result.hints.begin(), result.hints.end(),
-                      [&](const auto& h) { return contains(h, hint); }));
+                      [&text = hint](const auto& h) { return contains(h, text); }));
   }
 }

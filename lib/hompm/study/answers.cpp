@@ -46,7 +46,7 @@ std::string setting_text(const Outcome& outcome) {
   const Record& record = outcome.record;
   std::string text = "`" + record.scheme + "` p = " + std::to_string(record.degree) + ", " +
                      std::to_string(record.cells) + " cells × " + std::to_string(record.particles_per_cell);
-  for (const auto& [key, value] : outcome.point.settings) {
+  for (const auto& [key, value, where] : outcome.point.settings) {
     const std::string name = short_key(key);
     if (name == "scheme" || name == "degree" || name == "cells" || name == "particles_per_cell") continue;
     text.append(", ").append(name).append(" ").append(value);
@@ -59,7 +59,8 @@ std::string command_text(const Study& study, const Outcome& outcome) {
   text += study.scene_file.empty() ? "--case " + study.case_name : "--scene " + study.scene_file;
   if (!study.variant.empty()) text += " --variant " + study.variant;
   for (const auto* list : {&study.settings, &outcome.point.settings})
-    for (const auto& [key, value] : *list) text.append(" --set ").append(key).append("=").append(value);
+    for (const auto& [key, value, where] : *list)
+      text.append(" --set ").append(key).append("=").append(value);
   return text;
 }
 

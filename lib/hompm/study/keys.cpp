@@ -103,7 +103,7 @@ std::vector<Axis> read_axes(const std::string& text) {
   const std::string where = "--vary " + detail::printable(text);
   const auto equals = text.find('=');
   std::vector<Axis> axes;
-  if (equals != std::string::npos) axes.push_back({full_key(text.substr(0, equals), where), {}});
+  if (equals != std::string::npos) axes.push_back({full_key(text.substr(0, equals), where), {}, where});
   std::string rest = equals == std::string::npos ? text : text.substr(equals + 1);
   for (bool more = true; more;) {
     const auto comma = rest.find(',');
@@ -118,7 +118,7 @@ std::vector<Axis> read_axes(const std::string& text) {
     const auto values = usual_values().find(key);
     if (values == usual_values().end())
       throw SceneError(Origin{where}, "which values? Say --vary " + short_key(key) + "=1,2,3");
-    axes.push_back({key, values->second});
+    axes.push_back({key, values->second, where});
   }
   return axes;
 }

@@ -69,7 +69,8 @@ std::vector<std::string> meant(const std::string& key, const std::string& value,
 
 std::string name_of(const std::vector<Setting>& settings) {
   std::string name;
-  for (const auto& [key, value] : settings) name += (name.empty() ? "" : ",") + short_key(key) + "=" + value;
+  for (const auto& [key, value, where] : settings)
+    name += (name.empty() ? "" : ",") + short_key(key) + "=" + value;
   return name.empty() ? "as-it-is" : name;
 }
 
@@ -79,7 +80,7 @@ void expand(const Study& study, const Sweep& sweep, std::vector<Setting>& said,
   const Axis& axis = sweep[said.size()];
   for (const std::string& value : axis.values)
     for (const std::string& one : meant(axis.key, value, row_of(said, study.settings))) {
-      said.push_back({axis.key, one});
+      said.push_back({axis.key, one, axis.where});
       expand(study, sweep, said, take);
       said.pop_back();
     }
@@ -88,7 +89,8 @@ void expand(const Study& study, const Sweep& sweep, std::vector<Setting>& said,
 Scene load(const Study& study, const std::vector<Setting>& settings) {
   std::vector<Override> overrides;
   for (const auto* list : {&study.settings, &settings})
-    for (const auto& [key, value] : *list) overrides.push_back({key, value, short_key(key) + "=" + value});
+    for (const auto& [key, value, where] : *list)
+      overrides.push_back({key, value, where.empty() ? short_key(key) + "=" + value : where});
   return study.scene_file.empty() ? load_builtin(study.case_name, study.variant, overrides)
                                   : load_scene(study.scene_file, overrides);
 }
@@ -131,9 +133,9 @@ std::vector<Point> checked_points(const Study& study) {
   for (const Point& point : points) {
     try {
       scene_of(study, point);
-      for (const auto& [key, value] : point.settings) accepted.insert({key, value});
+      for (const auto& [key, value, where] : point.settings) accepted.insert({key, value});
     } catch (const SceneError& error) {
-      for (const auto& [key, value] : point.settings) complaints.try_emplace({key, value}, error);
+      for (const auto& [key, value, where] : point.settings) complaints.try_emplace({key, value}, error);
     }
   }
   for (const auto& [value, complaint] : complaints)

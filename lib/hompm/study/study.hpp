@@ -12,7 +12,8 @@ namespace hompm::study {
 struct Setting {
   std::string key;
   std::string value;
-  bool operator==(const Setting&) const = default;
+  std::string where = {};  ///< it was said, for messages; "" for nowhere in particular
+  bool operator==(const Setting& other) const { return key == other.key && value == other.value; }
 };
 
 /// A key that is varied. The value `all` stands for what the table of schemes has: of `scheme.name` every
@@ -22,6 +23,7 @@ struct Setting {
 struct Axis {
   std::string key;
   std::vector<std::string> values;
+  std::string where = {};  ///< they were said, for messages
 };
 
 /// Every combination of the values of its axes.

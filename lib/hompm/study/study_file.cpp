@@ -29,7 +29,8 @@ class Reader {
       } else if (name == "set" && node.is_table()) {
         each(*node.as_table(), "", [&](const std::string& path, const toml::node& value) {
           if (const auto key_there = key_of(path, value))
-            for (const std::string& one : values(value)) study.settings.push_back({*key_there, one});
+            for (const std::string& one : values(value))
+              study.settings.push_back({*key_there, one, origin(value).text()});
           if (value.is_array())
             report(value, "`" + detail::printable(path) + "` takes one value here; lists go into [[sweep]]");
         });
@@ -114,7 +115,7 @@ class Reader {
   Sweep sweep(const toml::table& table) {
     Sweep axes;
     each(table, "", [&](const std::string& path, const toml::node& node) {
-      if (const auto key = key_of(path, node)) axes.push_back({*key, values(node)});
+      if (const auto key = key_of(path, node)) axes.push_back({*key, values(node), origin(node).text()});
     });
     return axes;
   }
@@ -153,7 +154,8 @@ std::string study_text(const Study& study) {
   line("variant", study.variant);
   line("scene", study.scene_file);
   if (!study.settings.empty()) text += "\n[set]\n";
-  for (const auto& [key, value] : study.settings) text += quoted_key(key) + " = " + toml_value(value) + "\n";
+  for (const auto& [key, value, where] : study.settings)
+    text += quoted_key(key) + " = " + toml_value(value) + "\n";
   for (const Sweep& sweep : study.sweeps) {
     text += "\n[[sweep]]\n";
     for (const Axis& axis : in_order(sweep)) {

@@ -93,7 +93,7 @@ Cost steady_cost(const std::vector<Outcome>& outcomes) {
 std::string study_json(const Study& study, const std::vector<Outcome>& outcomes) {
   const Cost cost = steady_cost(outcomes);
   Json json{{"case", study.case_name}, {"variant", study.variant}, {"scene", study.scene_file}};
-  for (const auto& [key, value] : study.settings) json["set"][key] = value;
+  for (const auto& [key, value, where] : study.settings) json["set"][key] = value;
   for (const Field field : all_fields) {
     const Choice choice = choice_of(outcomes, field, cost);
     Json front = Json::array();
@@ -107,7 +107,7 @@ std::string study_json(const Study& study, const std::vector<Outcome>& outcomes)
     Json point = Json::parse(record_text(outcome.record));
     point.erase("program");
     point.erase("scene");
-    for (const auto& [key, value] : outcome.point.settings) point["settings"][key] = value;
+    for (const auto& [key, value, where] : outcome.point.settings) point["settings"][key] = value;
     json["points"].push_back(point);
   }
   return json.dump(2) + "\n";

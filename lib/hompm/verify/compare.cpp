@@ -127,13 +127,15 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
   detail::MessageLog faults;
   detail::MessageLog notes;
   std::optional<Difference> first;  // of all, within a tolerance or not
-  bool any_file = false;
+  bool any_in_a = false;
+  bool any_in_b = false;
   for (const auto& usual : tables()) {
     const fs::path file_a = a / usual.name;
     const fs::path file_b = b / usual.name;
     const bool in_a = is_there(file_a);
     const bool in_b = is_there(file_b);
-    any_file = any_file || in_a || in_b;
+    any_in_a = any_in_a || in_a;
+    any_in_b = any_in_b || in_b;
     if (in_a != in_b) {
       const auto& [there, missing] = in_a ? std::pair(file_a, file_b) : std::pair(file_b, file_a);
       faults.add(missing.string(), "missing files", 0, "missing, but there is " + there.string());
@@ -150,9 +152,8 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
     if (!first) first = judge.first();
     if (!result.first) result.first = judge.first_beyond();
   }
-  if (!any_file)
-    throw FileError("neither " + a.string() + " nor " + b.string() +
-                    " holds particles.csv, stress.csv or history.csv");
+  for (const auto& [any, folder] : {std::pair(any_in_a, a), std::pair(any_in_b, b)})
+    if (!any) throw FileError(folder.string() + " holds no particles.csv, stress.csv or history.csv");
 
   if (!result.first) result.first = first;
   result.messages = faults.messages();

@@ -83,8 +83,8 @@ const std::vector<std::string>& compared_fields();
 /// Compares particles.csv, stress.csv and history.csv of two folders (`b` is the golden one), columns matched
 /// by name and rows by time and particle, both in order. A file only one folder has is a difference.
 /// `tolerances` goes by field and holds in every file that has the field. Files are read row by row, so their
-/// size does not matter. Throws `FileError` when a folder or file cannot be read or neither folder holds
-/// results, `Error` for a tolerance of an unknown field.
+/// size does not matter. Throws `FileError` when a folder or file cannot be read or one of the folders holds
+/// no results, `Error` for a tolerance of an unknown field.
 Comparison compare_folders(const std::filesystem::path& a, const std::filesystem::path& b,
                            const std::map<std::string, Tolerance>& tolerances);
 

@@ -8,17 +8,32 @@ ErrorNorms error_norms(std::span<const double> numerical, std::span<const double
     throw Error("error norms of " + std::to_string(numerical.size()) + " values against " +
                 std::to_string(exact.size()));
   if (numerical.empty()) return {};
+  ErrorNorms norms;
+  double largest_exact = 0.0;
+  for (std::size_t p = 0; p < numerical.size(); ++p) {
+    norms.max = std::max(norms.max, std::abs(numerical[p] - exact[p]));
+    largest_exact = std::max(largest_exact, std::abs(exact[p]));
+  }
+  // Squares of what is tiny vanish, and those of what is huge are infinite.
+  const auto scale_of = [](double largest) {
+    return largest < 0x1p-400 ? 0x1p600 : largest > 0x1p400 ? 0x1p-600 : 1.0;
+  };
+  const double scale_error = scale_of(norms.max);
+  const double scale_exact = scale_of(largest_exact);
   double squared_error = 0.0;
   double squared_exact = 0.0;
-  ErrorNorms norms;
   for (std::size_t p = 0; p < numerical.size(); ++p) {
-    const double error = numerical[p] - exact[p];
+    const double error = scale_error * (numerical[p] - exact[p]);
     squared_error += error * error;
-    squared_exact += exact[p] * exact[p];
-    norms.max = std::max(norms.max, std::abs(error));
+    squared_exact += (scale_exact * exact[p]) * (scale_exact * exact[p]);
   }
-  norms.rms = std::sqrt(squared_error / static_cast<double>(numerical.size()));
-  norms.relative_l2 = squared_exact == 0.0 ? norms.rms : std::sqrt(squared_error / squared_exact);
+  norms.rms = std::sqrt(squared_error / static_cast<double>(numerical.size())) / scale_error;
+  if (squared_exact == 0.0)
+    norms.relative_l2 = norms.rms;
+  else if (scale_error == scale_exact)
+    norms.relative_l2 = std::sqrt(squared_error / squared_exact);
+  else
+    norms.relative_l2 = std::sqrt(squared_error) / scale_error / (std::sqrt(squared_exact) / scale_exact);
   if (std::isnan(norms.rms)) norms.max = norms.rms;  // max() passes over NaN, the sums do not
   return norms;
 }
