@@ -232,6 +232,7 @@ TEST_CASE("hompm-study says what is wrong with its options, and runs nothing") {
              contains("--vary cells=4,-8: `scheme.cells` must be"));
   write_file(folder / "wrong.toml", "case = \"bar\"\n[set]\nend_time = 0\n[[sweep]]\ncells = 4\n");
   CHECK_THAT(complaint("--study wrong.toml"), contains("wrong.toml:3:12: `end_time` must be"));
+  fs::remove(folder / "wrong.toml");
   CHECK_THAT(complaint("--case bar --set cells"), contains("expected KEY=VALUE"));
   CHECK_THAT(complaint("--jobs 2"), contains("nothing to study"));
   CHECK_THAT(complaint("--case bar --study x.toml"), contains("exclude each other"));
