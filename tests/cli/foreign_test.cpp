@@ -172,6 +172,44 @@ TEST_CASE("hompm-diff refuses options that make no sense with what is compared",
   }
 }
 
+TEST_CASE("hompm-diff --which says of what it can tell nothing, and why", "[foreign]") {
+  const TemporaryFolder folder;
+  const auto which = [&](const std::string& a, const std::string& b) {
+    return run_command("cd " + quoted(folder.path().string()) + " && timeout 60 " +
+                       quoted(HOMPM_BIN_DIR "/hompm-diff") + " --which " + a + " " + b);
+  };
+  const std::string settled = HOMPM_SOURCE_DIR "/golden/column-settled-bspline";
+  CHECK(contains(which(settled + "/particles.csv", settled).err, "the scene runs to rest"));
+
+  // Nothing at rest in a bar of four cells: of 3 steps of 0.1 s the first ends at a time of A, none of 0.2 s.
+  const auto scene = [](const std::string& end_time, const std::string& step) {
+    return "end_time = " + end_time +
+           "\nbody = { length = 4.0 }\nmaterial = { law = \"linear\", density = 1.0, youngs_modulus = 1.0 }\n"
+           "initial.velocity = { shape = \"sine\", amplitude = 0.01 }\n"
+           "scheme = { cells = 4, particles_per_cell = 2, allow_unstable = true, time_step = " +
+           step + " }\n";
+  };
+  write_file(folder / "few.toml", scene("0.3", "0.1"));
+  write_file(folder / "few.csv", "X,time,displacement\n0.25,0.1,0.01\n");
+  const auto few = which("few.csv", "few.toml");
+  CHECK(few.exit_code == 0);
+  CHECK(contains(few.out, " more are not possible"));
+  write_file(folder / "unstable.toml", scene("300.0", "3.0"));
+  write_file(folder / "unstable.csv", "X,time,displacement\n0.25,300,0.01\n");
+  CHECK(contains(which("unstable.csv", "unstable.toml").out, "as it is: invalid at step "));
+}
+
+TEST_CASE("a bound on a field that A does not have fails, whatever the effects of the scene", "[foreign]") {
+  const TemporaryFolder folder;
+  const std::string column = HOMPM_SOURCE_DIR "/golden/column-small-bspline";
+  write_file(folder / "theirs.csv", "X,time,displacement\n0.1,0,0\n");
+  const auto result = run_command(quoted(HOMPM_BIN_DIR "/hompm-diff") + " --relative all=1 " +
+                                  quoted((folder / "theirs.csv").string()) + " " + quoted(column));
+  CHECK(result.exit_code == 3);
+  CHECK(contains(result.out, "velocity"));
+  CHECK(contains(result.out, "not compared, not being in A: "));
+}
+
 TEST_CASE("the locale of the process changes nothing", "[foreign]") {
   const Csv csv;
   // de_DE writes decimal commas. Where its sources are not installed only its name is there, and C is used.

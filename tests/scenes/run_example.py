@@ -39,7 +39,7 @@ def main():
     failed = False
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / "out"
-        done = subprocess.run([tool, "--scene", scene, "--json", "--no-vtk", "--output", output], capture_output=True, text=True, check=False)
+        done = subprocess.run([tool, "--scene", scene, "--json", "--no-vtk", "--errors", "full", "--output", output], capture_output=True, text=True, check=False)
         if refusals := [(int(code), words) for code, words in re.findall(r'^# expect: exit (\d), saying "(.*)"$', "\n".join(f"# expect: {line}" for line in expected), re.MULTILINE)]:
             for code, words in refusals:
                 failed |= done.returncode != code or words not in done.stderr

@@ -72,15 +72,8 @@ std::string why_no_rest(const Scene& scene, const RunResult& result) {
   const std::string text = "not reached by the end time: ";
   if (result.last_speed <= scene.rest->speed)
     return text + "the particles became slow enough, but not for the time of a wave there and back";
-  const bool damped = std::ranges::any_of(bodies_of(scene), [](const Scene* body) {
-    return std::ranges::any_of(body->effects, [](const auto& spec) { return spec.type == "local-damping"; });
-  });
   return text + "a particle moved at " + brief(result.last_speed) + " m/s in the last step, rest.speed is " +
-         brief(scene.rest->speed) + " m/s" +
-         (damped && result.to_and_fro
-              ? ";\n            it turns around from step to step, which local damping keeps "
-                "up: raise rest.speed, or take smaller steps"
-              : "");
+         brief(scene.rest->speed) + " m/s";
 }
 
 std::string share(double part, double whole) { return whole > 0.0 ? brief(part / whole) : std::string("0"); }

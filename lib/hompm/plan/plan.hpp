@@ -91,10 +91,10 @@ class Discretisation {
   /// the scheme divides forces; fixed ends stay at rest. Returns the sum of the impulses that hold them.
   virtual double divide_by_mass(State& state, std::vector<double>& impulses) const = 0;
   /// Whether a free end with extension ties functions to others.
-  [[nodiscard]] virtual bool ties() const { return false; }
+  [[nodiscard]] virtual bool ties() const = 0;
   /// Moves the forces on functions that are tied to those that carry them, Cᵀ f: a tied function has no force
   /// out of balance of its own, and what acts on it does not vanish at rest.
-  virtual void untie(State& /*state*/, std::vector<double>& /*forces*/) const {}
+  virtual void untie(State& state, std::vector<double>& forces) const = 0;
   /// Whether the projection of a step leaves ∫ρ v N_i of the grid velocity in GridFields::momentum.
   [[nodiscard]] virtual bool keeps_momentum() const = 0;
   /// Sets GridFields::momentum to that, where it does not.

@@ -14,16 +14,10 @@
 namespace hompm::detail {
 
 // What TOML has and no key of a scene can hold.
-struct TomlTable {
-  bool operator==(const TomlTable&) const = default;
-};
-struct Array {
-  bool operator==(const Array&) const = default;
-};
+struct TomlTable {};
+struct Array {};
 /// A date or a time.
-struct Moment {
-  bool operator==(const Moment&) const = default;
-};
+struct Moment {};
 
 using Content = std::variant<bool, std::int64_t, double, std::string, TomlTable, Array, Moment>;
 

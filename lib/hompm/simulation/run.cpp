@@ -26,10 +26,7 @@ class RestWatch {
         earliest_(scene.rest->earliest.value_or(0.0)),
         end_time_(scene.end_time),
         quiet_steps_(quiet_steps) {
-    for (const State& state : states) {
-      before_.push_back(state.particles.displacement);
-      ways_.emplace_back(before_.back().size(), 0.0);
-    }
+    for (const State& state : states) before_.push_back(state.particles.displacement);
     double longest = 0.0;
     for (const Scene* body : bodies_of(scene)) {
       const double wave_speed = std::sqrt(body->material.youngs_modulus / body->material.density);
@@ -47,13 +44,9 @@ class RestWatch {
       const auto& displacement = states[body].particles.displacement;
       auto& before = before_[body];
       for (std::size_t i = 0; i < before.size(); ++i) {
-        const double way = displacement[i] - before[i];
-        quiet = quiet && std::abs(way) <= longest_way_;
-        if (std::abs(way) > longest_) {
-          longest_ = std::abs(way);
-          to_and_fro_ = way * ways_[body][i] < 0.0;
-        }
-        ways_[body][i] = way;
+        const double way = std::abs(displacement[i] - before[i]);
+        quiet = quiet && way <= longest_way_;
+        longest_ = std::max(longest_, way);
         before[i] = displacement[i];
       }
     }
@@ -62,17 +55,15 @@ class RestWatch {
     return quiet_steps_ >= steps_needed_ && time >= earliest_;
   }
   [[nodiscard]] std::int64_t quiet_steps() const { return quiet_steps_; }
-  /// Of the last step: the longest way of a particle (m), and whether that was back where it had come from.
+  /// The longest way of a particle in the last step, m.
   [[nodiscard]] double longest() const { return longest_; }
-  [[nodiscard]] bool to_and_fro() const { return to_and_fro_; }
 
  private:
   double longest_way_;          ///< m, in one step
   double settled_from_ = 0.0;   ///< s
   double earliest_, end_time_;  ///< s
-  std::vector<std::vector<double>> before_, ways_;
+  std::vector<std::vector<double>> before_;
   double longest_ = 0.0;
-  bool to_and_fro_ = false;
   std::int64_t steps_needed_;
   std::int64_t quiet_steps_;
 };
@@ -222,10 +213,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
   } catch (const InvalidRun& error) {
     throw_with_cause(error, result.largest_step_fraction);
   }
-  if (rest) {
-    result.last_speed = rest->longest() / stepping.time_step;
-    result.to_and_fro = rest->to_and_fro();
-  }
+  if (rest) result.last_speed = rest->longest() / stepping.time_step;
   for (Warning& found : warnings_after(result, scale)) result.warnings.push_back(std::move(found));
   return result;
 }

@@ -24,13 +24,10 @@ struct RunExtremes {
 };
 
 struct RunResult : RunExtremes {
-  std::int64_t steps = 0;  ///< that were done
-  bool at_rest = false;    ///< the run ended because the body came to rest
-  bool stopped = false;    ///< the run was stopped: there is no `final`
-  /// Where the scene asks for rest, of the fastest particle in the last step, m/s; and whether that particle
-  /// moved the other way in the step before.
-  double last_speed = 0.0;
-  bool to_and_fro = false;
+  std::int64_t steps = 0;   ///< that were done
+  bool at_rest = false;     ///< the run ended because the body came to rest
+  bool stopped = false;     ///< the run was stopped: there is no `final`
+  double last_speed = 0.0;  ///< where the scene asks for rest, of the fastest particle in the last step, m/s
   HistoryRow start, end;
   Snapshot final;
   std::vector<Warning> warnings;  ///< `warnings_before` and `warnings_after` (simulation/warnings.hpp)
