@@ -85,11 +85,32 @@ TEST_CASE("what cannot be traced or compared: exit 2 or 5 and the reason") {
         Refused{diff + "none text", "cannot read none: No such file", 5},
         Refused{diff + ". text", "cannot read .: it is a folder", 5},
         Refused{diff + "--ulps all=1 text text", "--trace compares bits: it takes no --ulps", 2},
-        Refused{diff + "text", "two", 2}}) {
+        Refused{diff + "text", "A and B to compare are needed, not 1", 2}}) {
     const auto done = run_command("cd " + quoted(scratch.path().string()) + " && " + command);
     INFO(command << " -> " << done.err);
     CHECK(done.exit_code == exit_code);
     CHECK_THAT(done.err, contains(message));
     CHECK_FALSE(fs::exists(scratch / "out"));
   }
+}
+
+TEST_CASE("of an invalid run the reason is told, also where its trace cannot be written", "[trace]") {
+  const TemporaryFolder scratch;
+  const auto done = run_command(
+      "cd " + quoted(scratch.path().string()) + " && " + quoted(HOMPM_BIN_DIR "/hompm-run") +
+      " --case bar --variant large --set scheme.allow_unstable=true --time-step 0.5 --trace /dev/full");
+  INFO(done.err);
+  CHECK(done.exit_code == 4);
+  CHECK_THAT(done.err, contains("invalid at step "));
+}
+
+TEST_CASE("what a law adds to the results is in the pictures, too", "[run]") {
+  const TemporaryFolder scratch;
+  const auto done =
+      run_command("cd " + quoted(scratch.path().string()) + " && " + quoted(HOMPM_BIN_DIR "/hompm-run") +
+                  " --scene " + quoted(HOMPM_SOURCE_DIR "/docs/scenes/plasticity.toml") +
+                  " --end-time 0.001 --snapshots 1 --errors none --quiet --output out");
+  INFO(done.err);
+  REQUIRE(done.exit_code == 0);
+  CHECK_THAT(read_file(scratch / "out/vtk/snapshot_0001.vtu"), contains("Name=\"plastic_strain\""));
 }

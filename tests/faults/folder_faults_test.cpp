@@ -269,7 +269,7 @@ TEST_CASE("fault 12: a stiff reference is a sum of modes, as good as the method 
       "initial.displacement = { shape = \"sine\", amplitude = 0.003, mode = 3 }\n",
       "[[effect]]\ntype = \"gravity\"\nacceleration = -9.81\n",
       "initial.velocity = { shape = \"linear\", amplitude = 0.2, gradient = 0.5 }\n",
-      "initial.displacement = { shape = \"uniform\", amplitude = 0.01 }\n",
+      "initial.velocity = { shape = \"uniform\", amplitude = 0.1 }\n",
       "[[effect]]\ntype = \"traction\"\nend = \"left\"\nvalue = 300.0\nramp_time = 0.01\n",
       "[[effect]]\ntype = \"traction\"\nend = \"right\"\nvalue = 300.0\nramp_time = 0.01\n"};
   const std::vector<double> X{0.0625, 0.3125, 0.6875, 0.9375};
