@@ -193,7 +193,8 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
         Snapshot snapshot;
         if (snapshot_due) snapshot = simulation.snapshot(time);
         if (const std::string bad = not_finite(snapshot, result.end); !bad.empty())
-          throw InvalidRun(step, time, -1, bad + " is not finite");  // LCOV_EXCL_LINE: densities that overflow
+          throw InvalidRun(step, time, -1,
+                           bad + " is not finite");  // LCOV_EXCL_LINE: densities that overflow
         if (row_due && observer.history) observer.history(result.end);
         if (snapshot_due && observer.snapshot) observer.snapshot(snapshot);
         if (last) result.final = std::move(snapshot);
