@@ -2,7 +2,9 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/floating_point.hpp>
