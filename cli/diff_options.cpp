@@ -1,5 +1,6 @@
 #include "diff_options.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 namespace hompm::cli {

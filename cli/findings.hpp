@@ -1,6 +1,8 @@
 // What a comparison finds, as text for people and as one JSON object.
 #pragma once
 
+#include <string>
+
 #include <hompm/recorder/trace.hpp>
 #include <hompm/verify/variants.hpp>
 

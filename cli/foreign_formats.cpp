@@ -7,12 +7,15 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 #include <zlib.h>
 
 #include <boost/property_tree/ptree.hpp>

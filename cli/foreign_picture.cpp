@@ -1,5 +1,13 @@
 #include "foreign_picture.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
 #include <hompm/number.hpp>
 #include <hompm/output/staging.hpp>
 

@@ -6,7 +6,9 @@
 //   two differ first and where each field differs most. The exit code tells the verdict: 0 identical or
 //   equivalent, 3 different. Where A is a file, see diff_options.hpp.
 
+#include <filesystem>
 #include <iostream>
+#include <string>
 
 #include <nlohmann/json.hpp>
 

@@ -4,6 +4,8 @@
 // output folder, and prints errors against the reference solution and the balances. With --check the scene of
 // a golden folder is run and the result compared with it. Sample runs: below, in the topics of --help.
 #include <iostream>
+#include <optional>
+#include <utility>
 
 #include "interruption.hpp"
 #include "listing.hpp"

@@ -5,8 +5,13 @@
 //   says which setting is the cheapest for an error. A study is a list of independent points; --list,
 //   --point,
 //   --times and --gather are its parts, for a workflow engine.
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,11 @@
 #include "listing.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,8 @@
+#include <filesystem>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <hompm/number.hpp>
 #include <hompm/scene_file/reader.hpp>

@@ -1,11 +1,14 @@
 #include "study_run.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <hompm/recorder/bytes.hpp>
 #include <hompm/scene_file/reader.hpp>

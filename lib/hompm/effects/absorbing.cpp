@@ -1,3 +1,7 @@
+#include <cmath>
+#include <utility>
+#include <variant>
+
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/materials/material.hpp>

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 #include <hompm/effects/body_end.hpp>
 
 namespace hompm::detail {

@@ -1,3 +1,6 @@
+#include <string>
+#include <utility>
+
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/number.hpp>

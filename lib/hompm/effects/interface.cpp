@@ -1,4 +1,5 @@
 #include <cmath>
+#include <string>
 
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>

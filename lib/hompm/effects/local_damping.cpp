@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <hompm/effects/effects.hpp>
 #include <hompm/effects/grid_damping.hpp>

@@ -1,3 +1,10 @@
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include <hompm/effects/effects.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/numerics/elementary.hpp>

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/body_end.hpp>
 #include <hompm/effects/effects.hpp>

@@ -2,6 +2,7 @@
 // a plan.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include <hompm/effects/amplitude_parameters.hpp>
 #include <hompm/effects/effects.hpp>
 #include <hompm/scene/amplitude.hpp>

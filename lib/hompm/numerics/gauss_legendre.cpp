@@ -1,3 +1,5 @@
+#include <string>
+
 #include <hompm/error.hpp>
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/numerics/gauss_legendre.hpp>

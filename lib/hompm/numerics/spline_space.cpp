@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <string>
 
 #include <hompm/error.hpp>
 #include <hompm/numerics/spline_space.hpp>

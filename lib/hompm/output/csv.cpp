@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <hompm/number.hpp>
 #include <hompm/output/csv.hpp>

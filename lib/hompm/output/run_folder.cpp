@@ -4,6 +4,7 @@
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>

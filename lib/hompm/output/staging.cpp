@@ -1,9 +1,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
+#include <string_view>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 #include <hompm/error.hpp>
 #include <hompm/output/staging.hpp>

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include <hompm/plan/state.hpp>
 

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <hompm/number.hpp>
 #include <hompm/plan/invalid.hpp>

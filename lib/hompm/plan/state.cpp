@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <variant>
+
 #include <hompm/materials/material.hpp>
 #include <hompm/plan/fields.hpp>
 #include <hompm/plan/state.hpp>

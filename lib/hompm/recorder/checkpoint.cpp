@@ -1,3 +1,6 @@
+#include <string_view>
+#include <utility>
+
 #include <hompm/build_info.hpp>
 #include <hompm/recorder/bytes.hpp>
 #include <hompm/recorder/checkpoint.hpp>

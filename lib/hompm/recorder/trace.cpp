@@ -1,3 +1,7 @@
+#include <span>
+#include <string_view>
+#include <utility>
+
 #include <hompm/build_info.hpp>
 #include <hompm/output/text_file.hpp>
 #include <hompm/recorder/trace.hpp>

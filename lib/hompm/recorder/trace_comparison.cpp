@@ -1,4 +1,11 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include <hompm/number.hpp>
 #include <hompm/recorder/trace.hpp>

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include <hompm/recorder/trace_file.hpp>
 
 namespace hompm::detail {

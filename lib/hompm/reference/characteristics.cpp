@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <hompm/number.hpp>
 #include <hompm/numerics/elementary.hpp>

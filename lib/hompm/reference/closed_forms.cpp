@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <variant>
 
 #include <hompm/reference/closed_forms.hpp>
 

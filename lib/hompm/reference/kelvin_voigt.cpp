@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/reference/kelvin_voigt.hpp>

@@ -2,8 +2,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <span>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 

@@ -1,4 +1,8 @@
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
+#include <variant>
 
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>

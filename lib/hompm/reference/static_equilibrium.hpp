@@ -1,6 +1,8 @@
 // The state of rest, for any law.
 #pragma once
 
+#include <span>
+
 #include <hompm/reference/reference.hpp>
 
 namespace hompm {

@@ -1,4 +1,5 @@
 #include <limits>
+#include <string>
 
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/numerics/smooth_step.hpp>

@@ -1,6 +1,10 @@
 // A scene of several bodies: each is read as a scene of its own.
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
 
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>

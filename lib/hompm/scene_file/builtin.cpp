@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <hompm/scene_file/embedded_cases.hpp>
 #include <hompm/scene_file/reader.hpp>

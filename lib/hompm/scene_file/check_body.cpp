@@ -1,5 +1,8 @@
 // What the keys of a body demand of each other.
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
 
 #include <hompm/scene_file/reading.hpp>
 

@@ -1,8 +1,13 @@
 // Defaults that follow from other keys, and what keys demand of each other.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <hompm/materials/material.hpp>
 #include <hompm/numerics/elementary.hpp>

@@ -1,4 +1,10 @@
 #include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include <hompm/scene_file/reading.hpp>
 

@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
 #include <hompm/materials/material.hpp>
 #include <hompm/scene_file/keys.hpp>

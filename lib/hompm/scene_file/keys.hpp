@@ -2,6 +2,7 @@
 // checking, writing and the reference documentation all follow it.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>

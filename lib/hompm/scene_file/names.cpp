@@ -1,5 +1,9 @@
 // Names that a scene cannot have, and what was probably meant.
 #include <algorithm>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>

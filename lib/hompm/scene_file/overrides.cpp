@@ -1,7 +1,12 @@
 // What the command line says in place of the file.
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>

@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reader.hpp>

@@ -1,5 +1,7 @@
 // The resolved scene as TOML.
 
+#include <string>
+
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reading.hpp>
 

@@ -1,4 +1,8 @@
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <toml++/toml.h>
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <hompm/numerics/moving_least_squares.hpp>
 #include <hompm/numerics/taylor_least_squares.hpp>

@@ -1,3 +1,5 @@
+#include <memory>
+
 #include <hompm/scheme/join_degree.hpp>
 
 template std::shared_ptr<const hompm::Discretisation> hompm::detail::join_degree<3>(

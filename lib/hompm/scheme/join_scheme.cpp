@@ -1,3 +1,5 @@
+#include <memory>
+
 #include <hompm/scheme/join_scheme.hpp>
 #include <hompm/scheme/particle_domains.hpp>
 

@@ -1,6 +1,8 @@
 // From the choices of a scheme to the stages of a step.
 #pragma once
 
+#include <memory>
+
 #include <hompm/materials/material.hpp>
 #include <hompm/plan/plan.hpp>
 

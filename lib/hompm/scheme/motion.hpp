@@ -1,7 +1,12 @@
 // The last part of a step: the grid velocity moves the particles and strains them.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include <hompm/materials/material.hpp>
 #include <hompm/plan/plan.hpp>

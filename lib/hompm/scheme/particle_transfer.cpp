@@ -1,4 +1,5 @@
 #include <cmath>
+#include <vector>
 
 #include <hompm/scheme/particle_transfer.hpp>
 

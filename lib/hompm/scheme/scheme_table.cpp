@@ -1,3 +1,6 @@
+#include <string>
+#include <vector>
+
 #include <hompm/error.hpp>
 #include <hompm/scheme/scheme.hpp>
 

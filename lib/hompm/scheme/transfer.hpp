@@ -1,7 +1,10 @@
 // What particles take back from the grid velocity, after the forces have changed theirs (FLIP).
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <hompm/plan/plan.hpp>
 #include <hompm/scheme/particle_transfer.hpp>

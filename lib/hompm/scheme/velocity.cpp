@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <hompm/scheme/velocity.hpp>
 
 namespace hompm::detail {

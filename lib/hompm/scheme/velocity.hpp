@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <hompm/scheme/least_squares.hpp>
 #include <hompm/scheme/reconstruction.hpp>

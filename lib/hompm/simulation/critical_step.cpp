@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include <hompm/numerics/spectral_radius.hpp>
 #include <hompm/scheme/join_scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>

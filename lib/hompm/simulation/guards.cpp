@@ -1,3 +1,10 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <variant>
+
 #include <hompm/number.hpp>
 #include <hompm/plan/invalid.hpp>
 #include <hompm/plan/taken.hpp>

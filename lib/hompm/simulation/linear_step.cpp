@@ -1,3 +1,10 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <variant>
+
 #include <hompm/scheme/join_scheme.hpp>
 #include <hompm/simulation/linear_step.hpp>
 

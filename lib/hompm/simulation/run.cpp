@@ -1,3 +1,10 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/plan/invalid.hpp>

@@ -1,3 +1,15 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
 #include <hompm/effects/registry.hpp>
 #include <hompm/scheme/join_scheme.hpp>
 #include <hompm/simulation/simulation.hpp>

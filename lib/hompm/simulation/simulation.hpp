@@ -1,6 +1,9 @@
 // A scene under way: its state, its plan, and the steps.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include <hompm/materials/material.hpp>
 #include <hompm/plan/plan.hpp>
 #include <hompm/scheme/scheme.hpp>

@@ -1,3 +1,10 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <hompm/number.hpp>
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/simulation/critical_step.hpp>

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include <hompm/number.hpp>
 #include <hompm/scene/amplitude.hpp>
 #include <hompm/simulation/critical_step.hpp>

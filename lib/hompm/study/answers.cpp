@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 #include <hompm/scene_file/value_rule.hpp>
 #include <hompm/study/answers.hpp>

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include <hompm/number.hpp>
 #include <hompm/scene_file/reader.hpp>

@@ -1,4 +1,6 @@
 #include <chrono>
+#include <cstdint>
+#include <utility>
 
 #include <hompm/plan/fields.hpp>
 #include <hompm/recorder/bytes.hpp>

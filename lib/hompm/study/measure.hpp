@@ -1,6 +1,7 @@
 // Runs one point of a study: its errors, its work, and states of it to count instructions from.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>

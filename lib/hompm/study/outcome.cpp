@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/study/measure.hpp>

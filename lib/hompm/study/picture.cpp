@@ -1,5 +1,12 @@
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <initializer_list>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <hompm/number.hpp>
 #include <hompm/study/answers.hpp>

@@ -1,7 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <hompm/scene_file/keys.hpp>
 #include <hompm/scene_file/reader.hpp>

@@ -1,3 +1,6 @@
+#include <array>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include <hompm/output/staging.hpp>

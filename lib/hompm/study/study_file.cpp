@@ -1,6 +1,12 @@
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <toml++/toml.h>
 

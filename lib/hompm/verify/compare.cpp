@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
+#include <limits>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include <hompm/error.hpp>
 #include <hompm/simulation/records.hpp>

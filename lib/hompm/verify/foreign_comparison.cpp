@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <hompm/effects/registry.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/number.hpp>

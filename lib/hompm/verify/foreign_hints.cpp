@@ -1,4 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <hompm/number.hpp>
 #include <hompm/verify/foreign_matching.hpp>

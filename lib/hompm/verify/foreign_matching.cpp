@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <hompm/number.hpp>

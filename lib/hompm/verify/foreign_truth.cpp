@@ -1,3 +1,10 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <hompm/number.hpp>
 #include <hompm/scene_file/reader.hpp>
 #include <hompm/verify/foreign_matching.hpp>

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include <hompm/number.hpp>
 #include <hompm/verify/judge.hpp>
 

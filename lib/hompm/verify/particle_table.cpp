@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <hompm/error.hpp>
 #include <hompm/number.hpp>

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <hompm/number.hpp>
 #include <hompm/verify/table_comparison.hpp>
