@@ -12,7 +12,7 @@
 #include <thread>
 #include <unistd.h>
 
-#include <hompm/study/record.hpp>
+#include <hompm/kit/study/record.hpp>
 
 namespace hompm::cli {
 

@@ -16,8 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include <hompm/build_info.hpp>
-#include <hompm/scene_file/reader.hpp>
-#include <hompm/scene_file/value_rule.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/value_rule.hpp>
 
 namespace hompm::cli {
 

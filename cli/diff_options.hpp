@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/verify/foreign_comparison.hpp>
+#include <hompm/kit/verify/foreign_comparison.hpp>
 
 #include "common.hpp"
 

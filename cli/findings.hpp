@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include <hompm/recorder/trace.hpp>
-#include <hompm/verify/variants.hpp>
+#include <hompm/kit/recorder/trace.hpp>
+#include <hompm/kit/verify/variants.hpp>
 
 namespace hompm::cli {
 

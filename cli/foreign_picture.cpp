@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/kit/output/staging.hpp>
 #include <hompm/number.hpp>
-#include <hompm/output/staging.hpp>
 
 #include "child.hpp"
 #include "common.hpp"

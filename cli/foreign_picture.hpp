@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <hompm/verify/foreign_comparison.hpp>
+#include <hompm/kit/verify/foreign_comparison.hpp>
 
 namespace hompm::cli {
 

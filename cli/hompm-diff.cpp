@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <hompm/output/staging.hpp>
+#include <hompm/kit/output/staging.hpp>
 
 #include "diff_options.hpp"
 #include "findings.hpp"

@@ -15,9 +15,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <hompm/kit/study/answers.hpp>
+#include <hompm/kit/study/measure.hpp>
 #include <hompm/numerics/floating_point.hpp>
-#include <hompm/study/answers.hpp>
-#include <hompm/study/measure.hpp>
 
 #include "common.hpp"
 #include "interruption.hpp"

@@ -9,10 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <hompm/kit/recorder/checkpoint.hpp>
+#include <hompm/kit/recorder/trace_file.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/number.hpp>
-#include <hompm/recorder/checkpoint.hpp>
-#include <hompm/recorder/trace_file.hpp>
-#include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/critical_step.hpp>
 
 #include "common.hpp"

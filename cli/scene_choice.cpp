@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/number.hpp>
-#include <hompm/scene_file/reader.hpp>
 
 #include "scene_run.hpp"
 

@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/kit/output/run_report.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/number.hpp>
-#include <hompm/output/run_report.hpp>
-#include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/warnings.hpp>
 
 #include "findings.hpp"

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
 
 #include "common.hpp"
 

@@ -5,10 +5,10 @@ set -eu
 
 packages="g++ cmake ninja-build libboost-dev libboost-program-options-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev"
 case "${1:-}" in
-  --tests | --all) packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy valgrind gnuplot-nox" ;;
+  --tests | --all) packages="$packages git catch2 libeigen3-dev python3 python3-meshio python3-numpy pybind11-dev python3-dev valgrind gnuplot-nox" ;;
 esac
 if [ "${1:-}" = --all ]; then
-  packages="$packages octave clang clang-format clang-tidy llvm lcov snakemake"
+  packages="$packages octave python3-matplotlib clang clang-format clang-tidy llvm lcov snakemake"
   # other architectures, for the reproducibility tests
   packages="$packages g++-aarch64-linux-gnu g++-s390x-linux-gnu qemu-user"
 fi

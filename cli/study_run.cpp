@@ -10,10 +10,10 @@
 #include <thread>
 #include <utility>
 
-#include <hompm/recorder/bytes.hpp>
-#include <hompm/scene_file/reader.hpp>
-#include <hompm/study/answers.hpp>
-#include <hompm/study/measure.hpp>
+#include <hompm/kit/recorder/bytes.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/study/answers.hpp>
+#include <hompm/kit/study/measure.hpp>
 
 #include "child.hpp"
 #include "common.hpp"

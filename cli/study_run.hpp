@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/study/outcome.hpp>
+#include <hompm/kit/study/outcome.hpp>
 
 namespace hompm::cli {
 

@@ -42,7 +42,8 @@ class Mutant:
 
     @property
     def room(self):
-        return self.path.split("/")[2] if self.path.count("/") > 2 else "hompm"
+        folder = self.path.split("/")[-2]
+        return "hompm" if folder == "kit" else folder
 
 
 def digest(text):

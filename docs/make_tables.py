@@ -395,9 +395,9 @@ ROOMS = {
     "plan": "the stages of a step and the state they work on",
     "effects": "loads, dampings, viscosities, what holds ends and couples bodies: each joins a plan",
     "scheme": "the table of schemes, and how its choices join a plan",
-    "scene_file": "scene files and the built-in cases: reading, checking, writing",
     "simulation": "steps, critical step, balances, runs, records",
     "reference": "exact and reference solutions",
+    "scene_file": "scene files and the built-in cases: reading, checking, writing",
     "verify": "error norms, comparison of result folders, and of another code's results with one",
     "output": "CSV, VTU, run.json, the summary; files appear whole or not at all",
     "recorder": "checkpoints and traces: the state of a run as bytes",
@@ -406,17 +406,20 @@ ROOMS = {
 
 
 def rooms(_tools):
-    """Each room of lib/hompm, what it holds and which rooms it includes headers of."""
+    """Each folder of lib/hompm, what it holds and which folders it includes headers of: those above it only."""
     library = ROOT / "lib/hompm"
-    present = {path.name for path in library.iterdir() if path.is_dir()}
-    if present != set(ROOMS):
-        sys.exit(f"make_tables: lib/hompm has the folders {sorted(present)}, ROOMS {sorted(ROOMS)}")
+    folders = {path.name: path for path in [*library.iterdir(), *(library / "kit").iterdir()] if path.is_dir() and path.name != "kit"}
+    if set(folders) != set(ROOMS):
+        sys.exit(f"make_tables: lib/hompm has the folders {sorted(folders)}, ROOMS {sorted(ROOMS)}")
     rows = []
-    for room, purpose in ROOMS.items():
-        lines = "\n".join(path.read_text() for path in (library / room).rglob("*.[ch]pp")).split("\n")
-        used = {line.split("/")[1] for line in lines if line.startswith("#include <hompm/")} - {room}
-        rows.append([f"`{room}`", purpose, ", ".join(name for name in ROOMS if name in used) or "–"])
-    return table(["folder", "what it holds", "uses"], rows)
+    for number, (room, purpose) in enumerate(ROOMS.items()):
+        text = "\n".join(path.read_text() for path in folders[room].rglob("*.[ch]pp"))
+        used = set(re.findall(r"^#include <hompm/(?:kit/)?(\w+)/", text, re.MULTILINE)) - {room}
+        if upwards := used - set(list(ROOMS)[:number]):
+            sys.exit(f"make_tables: lib/hompm: {room} includes headers of {', '.join(sorted(upwards))}, which are above it")
+        floor = "kit" if "kit" in folders[room].parts else "core"
+        rows.append([floor, f"`{room}`", purpose, ", ".join(name for name in ROOMS if name in used) or "–"])
+    return table(["floor", "folder", "what it holds", "uses"], rows)
 
 
 def parting(tools):
@@ -538,8 +541,8 @@ PARTS = {
     "effect-scene": source("docs/scenes/mass-damping.toml", "toml"),
     "effect-test": source("tests/verification/effects_test.cpp", "cpp", "TEST_CASE(\"mass-proportional damping", "}"),
     "scheme-choice": source("lib/hompm/scene/scheme_choices.hpp", "cpp", "enum class Basis", "};"),
-    "scheme-key": source("lib/hompm/scene_file/keys.cpp", "cpp", "      {\"scheme.basis\"", "       [](Scene& s) { return &s.scheme.choices.basis; }},"),
-    "scheme-conflicts": source("lib/hompm/scene_file/complete.cpp", "cpp", "  const bool domains =", "              \"must be at least 3 with a basis of hat functions over domains\");"),
+    "scheme-key": source("lib/hompm/kit/scene_file/keys.cpp", "cpp", "      {\"scheme.basis\"", "       [](Scene& s) { return &s.scheme.choices.basis; }},"),
+    "scheme-conflicts": source("lib/hompm/kit/scene_file/complete.cpp", "cpp", "  const bool domains =", "              \"must be at least 3 with a basis of hat functions over domains\");"),
     "scheme-stage": source("lib/hompm/scheme/join_degree.hpp", "cpp", "  if (choices.basis == Basis::splines)", "        [basis = choices.basis, right_end](State& state) { evaluate_domains(state, basis, right_end); });"),
     "scheme-formula": source("lib/hompm/scheme/particle_domains.hpp", "cpp", "/// Values and gradients of the hat functions over a domain", "}"),
     "scheme-row": source("lib/hompm/scheme/scheme_table.cpp", "cpp", "      {.name = \"ugimp\"", "       .choices = {.basis = Basis::contiguous_domains}},"),

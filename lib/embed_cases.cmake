@@ -6,7 +6,7 @@ foreach(case ${CASES})
   string(APPEND body "      {\"${name}\", R\"scene(${text})scene\"},\n")
 endforeach()
 file(WRITE ${OUTPUT}
-"#include <hompm/scene_file/embedded_cases.hpp>
+"#include <hompm/kit/scene_file/embedded_cases.hpp>
 
 namespace hompm::detail {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 
 #include "support/catch.hpp"
 #include "support/run_command.hpp"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/simulation/simulation.hpp>
 
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/scheme/motion.hpp>
 #include <hompm/scheme/particle_transfer.hpp>
 #include <hompm/scheme/velocity.hpp>

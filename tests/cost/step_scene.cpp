@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 
 /// callgrind writes what it has counted when this ends: --dump-after=scene_done.

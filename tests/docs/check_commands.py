@@ -8,8 +8,8 @@ Each file gets a copy of the source tree to work in, and BIN_DIR (hompm-run, hom
 - the lines of a ```sh block are run in order, each by a shell of its own (a `\\` at the end joins it with the next);
 - a line that ends in `# exit N` must end with that exit code, all others with 0;
 - a script of the tree, such as tests/run.sh, is not run but must be there and executable;
-- with --quick a block that calls Octave, hompm-study or another code is left out: the first is not installed by default, the
-  others take long.
+- with --quick a block that calls Octave, matplotlib or hompm-study is left out: the first two are not installed by default, the last takes
+  long; and one that calls module_NAME.py, where the Python module was not built.
 
 Exit code 0: all fine; 1: a complaint, with file and line; 2: bad usage.
 """
@@ -24,7 +24,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SKIPPED = ("build", ".git", "hompm-out", "__pycache__")
 SECONDS = 120
-LATER = ("octave-cli ", "hompm-study ")  # what --quick leaves out
+LATER = ("octave-cli ", "hompm-study ", "python3 draw.py")  # what --quick leaves out
 
 
 def markdown_files():
@@ -84,7 +84,8 @@ def run(path, text, folder, environment, quick):
         named = re.match(r"# ([\w-]+\.\w+)$", lines[0]) if lines else None
         if named and language != "sh":
             (folder / named.group(1)).write_text("\n".join(lines) + "\n")
-        if language != "sh" or (quick and any(line.startswith(LATER) for line in lines)):
+        later = LATER if "PYTHONPATH" in environment else (*LATER, "python3 module_")
+        if language != "sh" or (quick and any(line.startswith(later) for line in lines)):
             continue
         for number, command, expected in commands(start, lines):
             where = f"{path}:{number}: {command}"
@@ -147,6 +148,8 @@ def main():
         if os.access("/usr/bin/python3", os.X_OK):
             (shims / "python3").symlink_to("/usr/bin/python3")
         environment = dict(os.environ, PATH=os.pathsep.join([str(tools), str(shims), os.environ["PATH"]]))
+        if (tools.parent / "python").is_dir():
+            environment["PYTHONPATH"] = str(tools.parent / "python")
         for number, path in enumerate(markdown_files()):
             text = (ROOT / path).read_text()
             complaints += broken_links(path, text)

@@ -3,7 +3,7 @@
 #include <string>
 #include <sys/stat.h>
 
-#include <hompm/verify/foreign_comparison.hpp>
+#include <hompm/kit/verify/foreign_comparison.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

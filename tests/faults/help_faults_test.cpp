@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/recorder/checkpoint.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 
 #include "support/catch.hpp"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include <hompm/output/run_report.hpp>
+#include <hompm/kit/output/run_report.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

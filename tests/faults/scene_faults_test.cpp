@@ -8,11 +8,11 @@
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/error.hpp>
-#include <hompm/output/run_report.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/output/run_report.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/verify/judge.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/simulation/warnings.hpp>
-#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <hompm/error.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/number.hpp>
-#include <hompm/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/simulation.hpp>
 #include <hompm/simulation/time_step.hpp>

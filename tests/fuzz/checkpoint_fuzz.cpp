@@ -6,8 +6,8 @@
 #include <string>
 
 #include <hompm/error.hpp>
-#include <hompm/recorder/bytes.hpp>
-#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/kit/recorder/bytes.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
 #include <hompm/simulation/run.hpp>
 
 #include "demand.hpp"

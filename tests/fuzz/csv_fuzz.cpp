@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/verify/particle_table.hpp>
-#include <hompm/verify/table.hpp>
-#include <hompm/verify/table_comparison.hpp>
+#include <hompm/kit/verify/particle_table.hpp>
+#include <hompm/kit/verify/table.hpp>
+#include <hompm/kit/verify/table_comparison.hpp>
 
 #include "demand.hpp"
 #include "memory_file.hpp"

@@ -61,7 +61,7 @@ study --case column --advise --error 1e-3 --field stress
 study --count golden
 COMMANDS
 # Quoted words are how libFuzzer wants its dictionary.
-grep -oh '"[a-z][a-z0-9_.-]*"' $source/lib/hompm/scene_file/keys.cpp $source/lib/hompm/effects/*.cpp | tr -d '"' | tr . '\n' |
+grep -oh '"[a-z][a-z0-9_.-]*"' $source/lib/hompm/kit/scene_file/keys.cpp $source/lib/hompm/effects/*.cpp | tr -d '"' | tr . '\n' |
   sort -u | sed 's/.*/"&"/' >scene.dict
 cp scene.dict study.dict
 grep -oh '"[a-z][a-z-]*"' $source/cli/hompm-*.cpp $source/cli/diff_options.cpp | sort -u | sed 's/"\(.*\)"/"--\1"/' | cat - scene.dict >command.dict

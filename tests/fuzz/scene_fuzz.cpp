@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 
 #include "demand.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 
 /// Small scenes of several kinds, of some ten steps.
 inline std::vector<hompm::Scene> seed_scenes() {

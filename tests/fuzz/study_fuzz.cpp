@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/study/record.hpp>
-#include <hompm/study/study.hpp>
+#include <hompm/kit/study/record.hpp>
+#include <hompm/kit/study/study.hpp>
 
 #include "demand.hpp"
 #include "memory_file.hpp"

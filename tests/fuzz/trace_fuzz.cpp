@@ -7,9 +7,9 @@
 #include <string>
 
 #include <hompm/error.hpp>
-#include <hompm/recorder/bytes.hpp>
-#include <hompm/recorder/trace.hpp>
-#include <hompm/recorder/trace_file.hpp>
+#include <hompm/kit/recorder/bytes.hpp>
+#include <hompm/kit/recorder/trace.hpp>
+#include <hompm/kit/recorder/trace_file.hpp>
 #include <hompm/simulation/run.hpp>
 
 #include "demand.hpp"

@@ -12,11 +12,11 @@
 
 #include <hompm/effects/registry.hpp>
 #include <hompm/error.hpp>
-#include <hompm/output/run_folder.hpp>
+#include <hompm/kit/output/run_folder.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
+#include <hompm/kit/recorder/trace.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/plan/plan.hpp>
-#include <hompm/recorder/checkpoint.hpp>
-#include <hompm/recorder/trace.hpp>
-#include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/verify/judge.hpp>
 #include <hompm/simulation/critical_step.hpp>
 #include <hompm/simulation/warnings.hpp>
-#include <hompm/verify/judge.hpp>
 
 #include "stability/hard_cases.hpp"
 #include "support/catch.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/critical_step.hpp>
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <hompm/error.hpp>
-#include <hompm/output/run_report.hpp>
+#include <hompm/kit/output/run_report.hpp>
 #include <hompm/simulation/critical_step.hpp>
 #include <hompm/simulation/run.hpp>
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <hompm/recorder/checkpoint.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/simulation/records.hpp>
 #include <hompm/simulation/run.hpp>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/verify/compare.hpp>
+#include <hompm/kit/verify/compare.hpp>
 
 #include "support/sample_run.hpp"
 #include "support/temporary_folder.hpp"

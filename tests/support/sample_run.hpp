@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <hompm/output/run_folder.hpp>
+#include <hompm/kit/output/run_folder.hpp>
 #include <hompm/simulation/records.hpp>
 
 namespace hompm::test {

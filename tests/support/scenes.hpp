@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 
 namespace hompm::test {
 

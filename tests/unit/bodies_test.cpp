@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
 #include <hompm/simulation/run.hpp>
 
 #include "support/catch.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/output/run_folder.hpp>
-#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/kit/output/run_folder.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
 
 #include "support/catch.hpp"
 #include "support/file_size_limit.hpp"

@@ -5,8 +5,8 @@
 
 #include <hompm/build_info.hpp>
 #include <hompm/error.hpp>
-#include <hompm/recorder/bytes.hpp>
-#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/kit/recorder/bytes.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/simulation.hpp>
 

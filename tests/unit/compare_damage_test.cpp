@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/verify/compare.hpp>
+#include <hompm/kit/verify/compare.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

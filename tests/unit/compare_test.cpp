@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/kit/verify/compare.hpp>
 #include <hompm/number.hpp>
-#include <hompm/verify/compare.hpp>
 
 #include "support/catch.hpp"
 #include "support/run_pair.hpp"

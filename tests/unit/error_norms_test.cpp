@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/verify/judge.hpp>
+#include <hompm/kit/verify/judge.hpp>
 
 #include "support/catch.hpp"
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/verify/foreign_comparison.hpp>
 #include <hompm/number.hpp>
 #include <hompm/reference/reference.hpp>
-#include <hompm/scene_file/reader.hpp>
-#include <hompm/verify/foreign_comparison.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

@@ -4,15 +4,15 @@
 #include <variant>
 #include <vector>
 
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/verify/judge.hpp>
 #include <hompm/materials/material.hpp>
 #include <hompm/plan/state.hpp>
 #include <hompm/reference/closed_forms.hpp>
 #include <hompm/reference/loads.hpp>
 #include <hompm/reference/method_of_lines.hpp>
 #include <hompm/reference/reference.hpp>
-#include <hompm/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 

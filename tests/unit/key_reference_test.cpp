@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 
 #include "support/catch.hpp"
 

@@ -11,8 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <hompm/output/run_folder.hpp>
-#include <hompm/recorder/checkpoint.hpp>
+#include <hompm/kit/output/run_folder.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
 #include <hompm/simulation/run.hpp>
 
 #include "support/catch.hpp"

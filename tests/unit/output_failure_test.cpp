@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include <hompm/error.hpp>
-#include <hompm/output/run_folder.hpp>
-#include <hompm/output/staging.hpp>
-#include <hompm/output/text_file.hpp>
+#include <hompm/kit/output/run_folder.hpp>
+#include <hompm/kit/output/staging.hpp>
+#include <hompm/kit/output/text_file.hpp>
 
 #include "support/catch.hpp"
 #include "support/file_size_limit.hpp"

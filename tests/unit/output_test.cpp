@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <hompm/error.hpp>
+#include <hompm/kit/output/run_folder.hpp>
 #include <hompm/number.hpp>
-#include <hompm/output/run_folder.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 
 #include "support/catch.hpp"
 

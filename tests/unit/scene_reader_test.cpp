@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene_file/reader.hpp>
-#include <hompm/scene_file/value_rule.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/value_rule.hpp>
 #include <hompm/scheme/scheme.hpp>
 
 #include "support/catch.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <hompm/study/answers.hpp>
-#include <hompm/study/outcome.hpp>
+#include <hompm/kit/study/answers.hpp>
+#include <hompm/kit/study/outcome.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

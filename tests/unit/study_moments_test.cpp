@@ -2,9 +2,9 @@
 #include <string>
 
 #include <hompm/error.hpp>
-#include <hompm/recorder/bytes.hpp>
+#include <hompm/kit/recorder/bytes.hpp>
+#include <hompm/kit/study/measure.hpp>
 #include <hompm/simulation/simulation.hpp>
-#include <hompm/study/measure.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include <hompm/error.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/study/measure.hpp>
+#include <hompm/kit/study/outcome.hpp>
+#include <hompm/kit/study/study.hpp>
 #include <hompm/scheme/scheme.hpp>
-#include <hompm/study/measure.hpp>
-#include <hompm/study/outcome.hpp>
-#include <hompm/study/study.hpp>
 
 #include "support/catch.hpp"
 #include "support/message_of.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include <hompm/effects/registry.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/scheme/scheme.hpp>
 #include <hompm/simulation/simulation.hpp>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <hompm/kit/verify/judge.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

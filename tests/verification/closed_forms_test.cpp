@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <hompm/kit/verify/judge.hpp>
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string>
 
+#include <hompm/kit/verify/judge.hpp>
 #include <hompm/numerics/elementary.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
+#include <hompm/kit/verify/judge.hpp>
 #include <hompm/simulation/run.hpp>
-#include <hompm/verify/judge.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

@@ -11,13 +11,13 @@
 #include <string>
 
 #include <hompm/error.hpp>
-#include <hompm/output/run_folder.hpp>
-#include <hompm/scene_file/reader.hpp>
+#include <hompm/kit/output/run_folder.hpp>
+#include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/simulation/run.hpp>
 #ifdef HOMPM_WHOLE
-#include <hompm/output/run_report.hpp>
-#include <hompm/recorder/checkpoint.hpp>
-#include <hompm/recorder/trace.hpp>
+#include <hompm/kit/output/run_report.hpp>
+#include <hompm/kit/recorder/checkpoint.hpp>
+#include <hompm/kit/recorder/trace.hpp>
 #endif
 
 namespace {

@@ -1,0 +1,339 @@
+// The Python module: runs, exact solutions, simulations step by step, comparison. Bits are those of
+// hompm-run.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <hompm/kit/kit.hpp>
+#include <hompm/kit/scene_file/value_rule.hpp>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace hompm {
+namespace {
+
+using Keys = std::vector<std::pair<std::string, SceneValue>>;
+
+SceneValue value_of(const py::handle& given, const std::string& key) {
+  if (py::isinstance<py::bool_>(given)) return given.cast<bool>();
+  if (py::isinstance<py::str>(given)) return given.cast<std::string>();
+  if (PyIndex_Check(given.ptr()) != 0)
+    return py::int_(py::reinterpret_borrow<py::object>(given)).cast<std::int64_t>();
+  if (PyNumber_Check(given.ptr()) != 0)
+    return py::float_(py::reinterpret_borrow<py::object>(given)).cast<double>();
+  throw SceneError(Origin{key},
+                   "must be a number, a text or a truth value, not " + py::repr(given).cast<std::string>());
+}
+
+/// Tables are dicts, [[lists]] are lists of dicts.
+void flatten(const py::handle& given, const std::string& path, Keys& keys) {
+  if (py::isinstance<py::dict>(given)) {
+    for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(given))
+      flatten(value, (path.empty() ? "" : path + '.') + py::str(key).cast<std::string>(), keys);
+  } else if (py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given)) {
+    std::size_t index = 0;
+    for (const py::handle element : given) flatten(element, path + '[' + std::to_string(index++) + ']', keys);
+  } else {
+    keys.emplace_back(path, value_of(given, path));
+  }
+}
+
+const std::map<std::string, std::string> shortcuts{{"scheme", "scheme.name"},
+                                                   {"degree", "scheme.degree"},
+                                                   {"cells", "scheme.cells"},
+                                                   {"particles_per_cell", "scheme.particles_per_cell"},
+                                                   {"time_step", "scheme.time_step"},
+                                                   {"courant", "scheme.courant"},
+                                                   {"step_fraction", "scheme.step_fraction"},
+                                                   {"end_time", "end_time"},
+                                                   {"snapshots", "output.snapshots"}};
+
+/// A value as a scene file has it.
+struct Text {
+  std::string operator()(bool truth) const { return truth ? "true" : "false"; }
+  std::string operator()(std::int64_t number) const { return std::to_string(number); }
+  std::string operator()(double number) const { return detail::toml_number(number); }
+  std::string operator()(const std::string& text) const { return detail::toml_string(text); }
+};
+
+/// The scene that the arguments of `run`, `exact` and `Simulation` name; `others` are `shortcuts` and keys of
+/// a scene.
+Scene scene_of(const std::string& case_name, const std::string& variant, const py::object& scene,
+               const py::dict& set, const py::kwargs& others) {
+  Keys changes;
+  flatten(set, "", changes);
+  for (const auto& [name, value] : others) {
+    const auto word = py::str(name).cast<std::string>();
+    const auto shortcut = shortcuts.find(word);
+    changes.emplace_back(shortcut == shortcuts.end() ? word : shortcut->second, value_of(value, word));
+  }
+  if (case_name.empty() == scene.is_none())
+    throw py::value_error("name a case (\"bar\", \"column\") or a scene (a dict, or the path of a file)");
+  if (py::isinstance<py::dict>(scene)) {
+    Keys keys;
+    flatten(scene, "", keys);
+    for (auto& change : changes) {
+      std::erase_if(keys, [&](const auto& said) { return said.first == change.first; });
+      keys.push_back(std::move(change));
+    }
+    return make_scene(keys);
+  }
+  std::vector<Override> overrides;
+  for (const auto& [key, value] : changes) {
+    const std::string said = std::visit(Text(), value);
+    overrides.push_back({key, said, key + " = " + said});
+  }
+  if (scene.is_none()) return load_builtin(case_name, variant, overrides);
+  return load_scene(py::str(scene).cast<std::string>(), overrides);
+}
+
+/// An array that owns the values.
+py::array_t<double> array_of(std::vector<double> values, std::vector<py::ssize_t> shape = {}) {
+  auto held = std::make_unique<std::vector<double>>(std::move(values));
+  if (shape.empty()) shape = {static_cast<py::ssize_t>(held->size())};
+  double* const data = held->data();
+  const py::capsule owner(held.release(),
+                          [](void* vector) { delete static_cast<std::vector<double>*>(vector); });
+  return py::array_t<double>(std::move(shape), data, owner);
+}
+
+py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
+
+/// Arrays by field, of one row for each snapshot.
+py::dict fields_of(const std::vector<Snapshot>& snapshots) {
+  py::dict fields;
+  const auto add = [&](const std::string& name, const auto& values_of) {
+    std::vector<double> all;
+    for (const Snapshot& snapshot : snapshots) {
+      const std::vector<double>& values = values_of(snapshot);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    fields[py::str(name)] = array_of(std::move(all), {static_cast<py::ssize_t>(snapshots.size()),
+                                                      static_cast<py::ssize_t>(snapshots.front().size())});
+  };
+  for (const auto& column : detail::all_columns)
+    add(
+        std::string(column.name), [&](const Snapshot& s) -> auto& { return s.*column.values; });
+  for (std::size_t i = 0; i < snapshots.front().reported.size(); ++i)
+    add(
+        snapshots.front().reported[i].name, [&](const Snapshot& s) -> auto& { return s.reported[i].values; });
+  return fields;
+}
+
+py::dict run_scene(const std::string& case_name, const std::string& variant, const py::object& given,
+                   const py::dict& set, bool errors, const py::kwargs& others) {
+  const Scene scene = scene_of(case_name, variant, given, set, others);
+  std::vector<Snapshot> snapshots;
+  std::vector<HistoryRow> rows;
+  std::string report;
+  {
+    const py::gil_scoped_release free;
+    const TimeStepping stepping = time_stepping(scene);
+    RunObserver observer;
+    observer.snapshot = [&](const Snapshot& snapshot) { snapshots.push_back(snapshot); };
+    observer.history = [&](const HistoryRow& row) { rows.push_back(row); };
+    const auto interrupted = [] {
+      const py::gil_scoped_acquire held;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    };
+    constexpr std::int64_t now_and_then = 1024;  // steps
+    observer.progress = [&](std::int64_t step, std::int64_t) {
+      if (step % now_and_then == 0) interrupted();
+    };
+    const RunResult result = run(scene, stepping, observer);
+    std::string reason = "errors=False was given";
+    const auto judged = errors ? judge(scene, result, reason, [&](double) { interrupted(); }) : std::nullopt;
+    report = run_json({scene, stepping, result, judged, reason});
+  }
+  py::dict history;
+  const auto add = [&](const std::string& name, double HistoryRow::*value) {
+    std::vector<double> values;
+    for (const HistoryRow& row : rows) values.push_back(row.*value);
+    history[py::str(name)] = array_of(std::move(values));
+  };
+  add("time", &HistoryRow::time);
+  for (const auto& column : detail::history_columns) add(std::string(column.name), column.value);
+  std::vector<double> times;
+  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
+  using namespace pybind11::literals;
+  return py::dict("times"_a = array_of(std::move(times)), "fields"_a = fields_of(snapshots),
+                  "history"_a = history, "report"_a = from_json(report), "scene"_a = scene_text(scene));
+}
+
+/// The reference solution of a scene; times may come in any order, a smaller one starts it anew.
+class Exact {
+ public:
+  explicit Exact(Scene scene) : scene_(std::make_unique<Scene>(std::move(scene))) { begin(); }
+
+  py::dict at(const py::array_t<double, py::array::c_style | py::array::forcecast>& X, double time) {
+    if (!(time >= 0.0 && time <= scene_->end_time))
+      throw py::value_error("t must be from 0 to the end time of the scene, " +
+                            py::repr(py::float_(scene_->end_time)).cast<std::string>() + " s, not " +
+                            py::repr(py::float_(time)).cast<std::string>());
+    std::vector<std::size_t> order(static_cast<std::size_t>(X.size()));
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    const double* const points = X.data();
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return points[i]; });
+    std::vector<double> sorted;
+    for (const std::size_t i : order) {
+      if (!(points[i] >= scene_->body.left() && points[i] <= scene_->body.right()))
+        throw py::value_error("X must be in the body, from " +
+                              py::repr(py::float_(scene_->body.left())).cast<std::string>() + " to " +
+                              py::repr(py::float_(scene_->body.right())).cast<std::string>() + " m, not " +
+                              py::repr(py::float_(points[i])).cast<std::string>());
+      sorted.push_back(points[i]);
+    }
+    ReferenceFields fields;
+    {
+      const py::gil_scoped_release free;
+      if (time < last_) begin();
+      last_ = time;
+      fields = reference_->at(time, sorted);
+    }
+    py::dict result;
+    const std::vector<py::ssize_t> shape(X.shape(), X.shape() + X.ndim());
+    for (const auto& [name, values] : {std::pair{"displacement", &fields.displacement},
+                                       {"velocity", &fields.velocity},
+                                       {"stress", &fields.stress}}) {
+      std::vector<double> asked(order.size());
+      for (std::size_t i = 0; i < order.size(); ++i) asked[order[i]] = (*values)[i];
+      result[name] = array_of(std::move(asked), shape.empty() ? std::vector<py::ssize_t>{1} : shape);
+    }
+    return result;
+  }
+  [[nodiscard]] std::string description() const { return reference_->description; }
+  [[nodiscard]] py::dict own_error() const {
+    using namespace pybind11::literals;
+    const ReferenceErrors errors = reference_->estimated_error();
+    return py::dict("displacement"_a = errors.displacement, "velocity"_a = errors.velocity,
+                    "stress"_a = errors.stress);
+  }
+
+ private:
+  void begin() {
+    reference_ = make_reference(*scene_);
+    last_ = 0.0;
+    if (!reference_)
+      throw SceneError(Origin{scene_->case_name}, "no exact or reference solution of this scene is known");
+  }
+  std::unique_ptr<Scene> scene_;
+  std::optional<Reference> reference_;
+  double last_ = 0.0;
+};
+
+/// A simulation and its first time step.
+struct Stepper {
+  explicit Stepper(const Scene& scene) : Stepper(scene, time_stepping(scene)) {}
+  Stepper(const Scene& scene, const TimeStepping& stepping)
+      : time_step(stepping.time_step),
+        end_time(scene.end_time),
+        steps(stepping.steps),
+        simulation(scene, time_step) {}
+  double time_step, end_time;
+  std::int64_t steps;
+  Simulation simulation;
+
+  void step(std::int64_t count, std::optional<double> length) {
+    for (std::int64_t i = 0; i < count; ++i) simulation.step(length.value_or(time_step));
+  }
+};
+
+/// The entries of a field of the particles, without markers, where they are: no copy.
+py::array_t<double> view(const py::object& self, const std::string& name, std::size_t body) {
+  auto& stepper = self.cast<Stepper&>();
+  if (body >= stepper.simulation.bodies()) throw py::index_error("there is no body " + std::to_string(body));
+  State& state = stepper.simulation.state(body);
+  std::vector<double>* values = state.find("particles." + name);
+  std::vector<std::string> names;
+  for (const CoreField& field : core_fields) {
+    if (field.info.site != Site::particle) continue;
+    names.emplace_back(field.info.name.substr(std::string("particles.").size()));
+    if (names.back() == name) values = std::get<std::vector<double>*>(field.of(state));
+  }
+  if (values == nullptr) {
+    const std::string near = nearest(name, names);
+    throw py::key_error("particles have no field " + name +
+                        (near.empty() ? "" : "; did you mean " + near + "?"));
+  }
+  const std::size_t markers = state.particles.markers;
+  return py::array_t<double>(static_cast<py::ssize_t>(values->size() - 2 * markers), values->data() + markers,
+                             self);
+}
+
+}  // namespace
+}  // namespace hompm
+
+PYBIND11_MODULE(hompm, module) {
+  using namespace hompm;
+  using namespace pybind11::literals;
+  module.doc() =
+      "Material point methods in one dimension: runs, exact solutions, simulations step by step. SI units.";
+  module.attr("__version__") = build_info().version;
+  const auto error = py::register_exception<Error>(module, "Error");
+  py::register_exception<SceneError>(module, "SceneError", error);
+  py::register_exception<InvalidRun>(module, "InvalidRun", error);
+  py::register_exception<FileError>(module, "FileError", error);
+  py::register_exception<ArithmeticError>(module, "ArithmeticError", error);
+
+  module.def("run", &run_scene, "case"_a = "", "variant"_a = "", "scene"_a = py::none(), "set"_a = py::dict(),
+             "errors"_a = true,
+             R"(Runs a scene.
+
+case, variant: a built-in one; or scene: a dict, or the path of a file. set: further keys, {"scheme.cells": 64}.
+Keywords: scheme, degree, cells, particles_per_cell, time_step, courant, step_fraction, end_time, snapshots.
+Returns a dict: times (s); fields, by name an array of times × particles (X, x, displacement, velocity, ...);
+history, by column an array; report, which is run.json; scene, the scene as run.)");
+  py::class_<Exact>(
+      module, "exact",
+      "The exact or reference solution of a scene, named as for run; call it with X (m) and t (s).")
+      .def(py::init([](const std::string& c, const std::string& v, const py::object& s, const py::dict& set,
+                       const py::kwargs& others) { return Exact(scene_of(c, v, s, set, others)); }),
+           "case"_a = "", "variant"_a = "", "scene"_a = py::none(), "set"_a = py::dict())
+      .def("__call__", &Exact::at, "X"_a, "t"_a,
+           "displacement (m), velocity (m/s) and stress (Pa) at X (m, an array) and t (s), as arrays.")
+      .def_property_readonly("description", &Exact::description, "Which solution this is.")
+      .def_property_readonly("own_error", &Exact::own_error,
+                             "Its own relative error at the last call, by field.");
+  py::class_<Stepper>(module, "Simulation", "A scene, named as for run, step by step.")
+      .def(py::init([](const std::string& c, const std::string& v, const py::object& s, const py::dict& set,
+                       const py::kwargs& others) { return Stepper(scene_of(c, v, s, set, others)); }),
+           "case"_a = "", "variant"_a = "", "scene"_a = py::none(), "set"_a = py::dict())
+      .def("step", &Stepper::step, "count"_a = 1, "length"_a = py::none(),
+           py::call_guard<py::gil_scoped_release>(), "Takes steps of the length (s; default time_step).")
+      .def("field", &view, "name"_a, "body"_a = 0,
+           "A field of the particles as it is now, in place: what is written there goes into the next step.")
+      .def(
+          "snapshot",
+          [](const Stepper& s) { return fields_of({s.simulation.snapshot(s.simulation.state().time)}); },
+          "All fields with velocities at the time of the positions, arrays of 1 × particles.")
+      .def(
+          "copy", [](const Stepper& s) { return Stepper(s); }, "A copy that goes on by itself.")
+      .def("__eq__", [](const Stepper& a, const Stepper& b) { return a.simulation == b.simulation; })
+      .def_property_readonly(
+          "time", [](const Stepper& s) { return s.simulation.state().time; }, "s")
+      .def_readonly("time_step", &Stepper::time_step, "s")
+      .def_readonly("end_time", &Stepper::end_time, "s")
+      .def_readonly("steps", &Stepper::steps, "to the end time");
+  module.def(
+      "compare",
+      [](const std::string& a, const std::string& b) {
+        const Comparison found = compare_folders(a, b, {});
+        py::list fields;
+        for (const FieldComparison& field : found.fields)
+          fields.append(py::dict("file"_a = field.file, "field"_a = field.field, "values"_a = field.values,
+                                 "differing"_a = field.differing,
+                                 "largest_absolute"_a = field.largest_absolute));
+        return py::dict("verdict"_a = to_string(found.verdict), "messages"_a = found.messages,
+                        "fields"_a = fields);
+      },
+      "a"_a, "b"_a, "Compares the result folders a and b exactly, as hompm-diff does.");
+}
