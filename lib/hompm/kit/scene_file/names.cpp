@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,13 +32,30 @@ std::string elsewhere(const std::string& name) {
   return "";
 }
 
+/// Keys by the symbols of the field.
+std::string by_symbol(const std::string& symbol) {
+  for (const auto& [name, path] : {std::pair{"E", "material.youngs_modulus"},
+                                   {"rho", "material.density"},
+                                   {"ρ", "material.density"},
+                                   {"dt", "scheme.time_step"},
+                                   {"T", "end_time"},
+                                   {"t_end", "end_time"},
+                                   {"H", "body.length"},
+                                   {"L", "body.length"},
+                                   {"ppc", "scheme.particles_per_cell"},
+                                   {"p", "scheme.degree"}})
+    if (symbol == name) return path;
+  return "";
+}
+
 bool is_effect(const Reading& reading, const std::string& name) {
   return std::ranges::any_of(effects_of(reading.scene),
                              [&](const EffectType& type) { return type.name == name; });
 }
 
 void report_unknown_option(Reading& reading, const std::string& path, const SaidValue& value) {
-  std::string near = nearest(path, all_paths());
+  std::string near = by_symbol(value.name);
+  if (near.empty()) near = nearest(path, all_paths());
   if (near.empty()) near = elsewhere(value.name);
   const std::string hint = near.empty() ? "" : "; did you mean `" + near + "`?";
   if (!near.empty()) reading.meant.insert(near);
@@ -51,7 +69,14 @@ void report_unknown(Reading& reading, const std::string& path, const SaidValue& 
                               : "unknown key `" + printable(value.name) + "` " + place(value.parent);
   const std::vector<std::string> names = names_in(value.parent);
   std::string meant = nearest(value.name, names);
-  if (!meant.empty()) {
+  if (const std::string path = table ? "" : by_symbol(value.name); !path.empty()) {
+    meant = path;
+    message += "; did you mean `" + last_name(path) + '`' +
+               (parent_path(path) == value.parent ? "" : " " + place(parent_path(path))) + '?';
+  } else if (value.name == "g" && !table) {
+    meant = "";
+    message += "; gravity is written [[effect]] with type = \"gravity\" and acceleration = -9.81";
+  } else if (!meant.empty()) {
     meant = join_path(value.parent, meant);
     message += table ? "; did you mean [" + meant + "]?" : "; did you mean `" + last_name(meant) + "`?";
   } else if (meant = elsewhere(value.name); !meant.empty()) {

@@ -12,6 +12,7 @@
 #include <hompm/kit/scene_file/keys.hpp>
 #include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/kit/scene_file/reading.hpp>
+#include <hompm/kit/scene_file/units.hpp>
 
 namespace hompm {
 namespace detail {
@@ -32,6 +33,8 @@ std::optional<Content> Reading::take(const std::string& path, const std::string&
   if (const auto* text = std::get_if<std::string>(&value.content)) {
     const std::string near = nearest(*text, rule.words);
     if (!near.empty()) message += "; did you mean \"" + near + "\"?";
+    const std::string reason = rule.type == ValueType::number ? converted(*text, rule.unit).reason : "";
+    if (!reason.empty()) message += ": " + reason;
   }
   report(value.value, std::move(message));
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/scene_file/units.hpp>
 #include <hompm/kit/scene_file/value_rule.hpp>
 #include <hompm/number.hpp>
 
@@ -150,11 +151,17 @@ std::optional<Content> accepted(const ValueRule& rule, const Content& content) {
   const auto* whole = std::get_if<std::int64_t>(&content);
   const auto* real = std::get_if<double>(&content);
   const auto* word = std::get_if<std::string>(&content);
-  const double value = whole != nullptr ? static_cast<double>(*whole) : real != nullptr ? *real : 0.0;
+  double value = whole != nullptr ? static_cast<double>(*whole) : real != nullptr ? *real : 0.0;
   switch (rule.type) {
-    case ValueType::number:
-      return (whole != nullptr || real != nullptr) && in_range(rule, value) ? std::optional<Content>(value)
-                                                                            : std::nullopt;
+    case ValueType::number: {
+      bool is_number = whole != nullptr || real != nullptr;
+      if (word != nullptr) {
+        const auto with_unit = converted(*word, rule.unit).value;
+        is_number = with_unit.has_value();
+        value = with_unit.value_or(0.0);
+      }
+      return is_number && in_range(rule, value) ? std::optional<Content>(value) : std::nullopt;
+    }
     case ValueType::integer:
       return whole != nullptr && in_range(rule, value) ? std::optional(content) : std::nullopt;
     case ValueType::boolean:
