@@ -36,28 +36,28 @@ Complex exp(Complex z) {
   return {size * numerics::cos(z.im), size * numerics::sin(z.im)};
 }
 
-constexpr std::size_t degree = 9;  // of the smooth step
-using Polynomial = std::array<double, degree + 1>;
+constexpr std::size_t ramp_degree = 9;  // of the smooth step
+using Polynomial = std::array<double, ramp_degree + 1>;
 
 /// Σ c_j ∫₀¹ e^{z(1 − s)} s^j ds.
 Complex integral(Complex z, const Polynomial& c) {
-  std::array<Complex, degree + 1> of{};
+  std::array<Complex, ramp_degree + 1> of{};
   const double size = std::abs(z.re) + std::abs(z.im);
-  if (size >= degree + 1.0) {  // by parts, from j = 0 upwards
+  if (size >= ramp_degree + 1.0) {  // by parts, from j = 0 upwards
     of[0] = (exp(z) - Complex{1.0, 0.0}) / z;
-    for (std::size_t j = 1; j <= degree; ++j)
+    for (std::size_t j = 1; j <= ramp_degree; ++j)
       of[j] = (static_cast<double>(j) * of[j - 1] - Complex{1.0, 0.0}) / z;
   } else {  // the series of the last one, and by parts downwards
-    Complex term{1.0 / (degree + 1.0), 0.0};
+    Complex term{1.0 / (ramp_degree + 1.0), 0.0};
     for (int m = 1; m <= 70; ++m) {
-      of[degree] = of[degree] + term;
-      term = (1.0 / (degree + 1.0 + m)) * (term * z);
+      of[ramp_degree] = of[ramp_degree] + term;
+      term = (1.0 / (ramp_degree + 1.0 + m)) * (term * z);
     }
-    for (std::size_t j = degree; j > 0; --j)
+    for (std::size_t j = ramp_degree; j > 0; --j)
       of[j - 1] = (1.0 / static_cast<double>(j)) * (z * of[j] + Complex{1.0, 0.0});
   }
   Complex sum;
-  for (std::size_t j = 0; j <= degree; ++j) sum = sum + c[j] * of[j];
+  for (std::size_t j = 0; j <= ramp_degree; ++j) sum = sum + c[j] * of[j];
   return sum;
 }
 
@@ -73,8 +73,8 @@ struct Piece {
 Polynomial step_polynomial(double at, double slope) {
   constexpr Polynomial powers{0.0, 0.0, 0.0, 0.0, 0.0, 126.0, -420.0, 540.0, -315.0, 70.0};
   Polynomial p{};
-  for (std::size_t j = degree + 1; j-- > 0;) {  // Horner's rule, of polynomials
-    for (std::size_t i = degree; i > 0; --i) p[i] = at * p[i] + slope * p[i - 1];
+  for (std::size_t j = ramp_degree + 1; j-- > 0;) {  // Horner's rule, of polynomials
+    for (std::size_t i = ramp_degree; i > 0; --i) p[i] = at * p[i] + slope * p[i - 1];
     p[0] = at * p[0] + powers[j];
   }
   return p;

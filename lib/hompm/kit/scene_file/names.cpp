@@ -69,10 +69,10 @@ void report_unknown(Reading& reading, const std::string& path, const SaidValue& 
                               : "unknown key `" + printable(value.name) + "` " + place(value.parent);
   const std::vector<std::string> names = names_in(value.parent);
   std::string meant = nearest(value.name, names);
-  if (const std::string path = table ? "" : by_symbol(value.name); !path.empty()) {
-    meant = path;
-    message += "; did you mean `" + last_name(path) + '`' +
-               (parent_path(path) == value.parent ? "" : " " + place(parent_path(path))) + '?';
+  if (const std::string key = table ? "" : by_symbol(value.name); !key.empty()) {
+    meant = key;
+    message += "; did you mean `" + last_name(key) + '`' +
+               (parent_path(key) == value.parent ? "" : " " + place(parent_path(key))) + '?';
   } else if (value.name == "g" && !table) {
     meant = "";
     message += "; gravity is written [[effect]] with type = \"gravity\" and acceleration = -9.81";
