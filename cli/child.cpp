@@ -12,7 +12,11 @@
 #include <thread>
 #include <unistd.h>
 
+#include <hompm/kit/output/staging.hpp>
 #include <hompm/kit/study/record.hpp>
+
+#include "common.hpp"
+#include "interruption.hpp"
 
 namespace hompm::cli {
 
@@ -63,12 +67,32 @@ std::optional<std::string> run_gnuplot(const std::string& script) {
   const auto file = [&](const char* name) { return scratch.path() + "/" + name; };
   study::write_whole(file("script"), script);
   // -d: none of the user's settings, the same picture for everybody.
-  const int code = run_child({"gnuplot", "-d", file("script")}, file("out"), file("log"), [] {});
+  const int code = run_child({"gnuplot", "-d", file("script")}, file("out"), file("log"), check_interruption);
   if (code == no_such_program) return std::nullopt;
   if (code == 0) return read_file(file("out"));
   std::string said = read_file(file("log")).substr(0, 300);
   std::ranges::replace(said, '\n', ' ');
   throw FileError("gnuplot failed: " + said);
+}
+
+void require_picture_name(const std::string& option, const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension();
+  if (std::ranges::find(gnuplot::endings, ending) != std::end(gnuplot::endings)) return;
+  throw UsageError(option + " " + file + ": the name must end in .svg, .png or .pdf" +
+                   suggestion(ending, {std::begin(gnuplot::endings), std::end(gnuplot::endings)}));
+}
+
+std::string draw(const gnuplot::Picture& picture, const std::string& file) {
+  const auto path = std::filesystem::absolute(file);
+  detail::StagingFolder staging(path.parent_path());
+  if (const auto drawn = run_gnuplot(gnuplot::script(picture, path.extension().string(), ""))) {
+    staging.replace(path.filename(), *drawn);
+    return "";
+  }
+  const std::string name = path.stem().string() + ".gnuplot";
+  staging.replace(name, gnuplot::script(picture, path.extension().string(), path.filename()));
+  return "gnuplot is not installed (Debian package gnuplot-nox); its script is " +
+         std::filesystem::path(file).replace_filename(name).string();
 }
 
 }  // namespace hompm::cli

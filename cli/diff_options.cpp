@@ -83,7 +83,7 @@ std::vector<Option> foreign_options() {
       {"time-step", "T", "of a dump that counts steps, in s"},
       {"submit", "FOLDER", "make a folder for golden/others of A, to be filled in"},
       {"which", "", "run variants of the scheme of B, and say which A agrees with, to how many digits"},
-      {"picture", "FILE", "draw A, B and exact solution: .svg or .png, by gnuplot"}};
+      {"picture", "FILE", "draw A, B and exact solution: .svg, .png or .pdf, by gnuplot"}};
 }
 
 void refuse_foreign_options(const CommandLine& given) {

@@ -7,12 +7,10 @@
 
 namespace hompm::cli {
 
-/// Throws `UsageError` when the name does not end in .svg or .png.
-void require_picture_name(const std::string& file);
-
 /// Draws displacement, velocity and stress (those that A has) of A and B over X with the exact solution, one
-/// row of panels per time, and errors below. The file appears whole or not at all. Says what is in the way
-/// when there is nothing to draw or nothing to draw with, or "". Throws `FileError`.
-std::string draw_picture(const ForeignComparison& comparison, const std::string& file);
+/// row of panels per time, and errors below; `a` and `b` are their names. Says what is in the way when there
+/// is nothing to draw, or as `draw`, which also says what it throws.
+std::string draw_picture(const ForeignComparison& comparison, const std::string& a, const std::string& b,
+                         const std::string& file);
 
 }  // namespace hompm::cli

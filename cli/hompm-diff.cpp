@@ -14,6 +14,7 @@
 
 #include <hompm/kit/output/staging.hpp>
 
+#include "child.hpp"
 #include "diff_options.hpp"
 #include "findings.hpp"
 #include "foreign_formats.hpp"
@@ -115,7 +116,7 @@ Verdict compare_file(const CommandLine& given, const std::string& file, const st
   ForeignOptions options = read_foreign_options(given);
   options.name = file == "-" ? "standard input" : file;
   const std::string picture = given.text("picture");
-  if (given.has("picture")) require_picture_name(picture);
+  if (given.has("picture")) require_picture_name("--picture", picture);
   try {
     const TableFile table(file, options.direction, seconds(given, "time-step"));
     if (given.has("which")) {
@@ -125,7 +126,8 @@ Verdict compare_file(const CommandLine& given, const std::string& file, const st
     const ForeignComparison found = compare_foreign(table.path(), folder, options);
     if (given.has("submit")) submit(given.text("submit"), table.path(), folder);
     print(given, found);
-    const std::string obstacle = given.has("picture") ? draw_picture(found, picture) : "";
+    const std::string obstacle =
+        given.has("picture") ? draw_picture(found, options.name, folder, picture) : "";
     if (!obstacle.empty()) std::cerr << "hompm-diff: no picture: " << obstacle << '\n';
     return found.verdict;
   } catch (const OptionError& error) {

@@ -9,6 +9,7 @@
 
 #include "interruption.hpp"
 #include "listing.hpp"
+#include "run_picture.hpp"
 #include "scene_run.hpp"
 
 namespace hompm::cli {
@@ -47,7 +48,9 @@ Tool this_tool() {
              {"explain", "", "print the stages of a step and what called for each, and run nothing"}}},
            {"outputs",
             "what is written and printed",
-            {"hompm-run --case bar --output out --snapshots 50", "hompm-run --case bar --json"},
+            {"hompm-run --case bar --output out --snapshots 50", "hompm-run --case bar --json",
+             "hompm-run --case column --picture column.svg",
+             "hompm-run --picture both.pdf hompm-out/bar-large-bspline hompm-out/bar-large-high-order"},
             {{"output", "DIR", "output folder (default hompm-out/CASE-VARIANT-SCHEME)"},
              {"snapshots", "N", "output.snapshots, after the start"},
              {"no-clobber", "", "refuse to replace a run that is in the output folder"},
@@ -55,6 +58,12 @@ Tool this_tool() {
              {"errors", "WHICH",
               "errors against the reference solution: auto, unless it takes longer than the run and 2 s "
               "(default); full, however long it takes (default with --check); none"},
+             {"picture", "FILE",
+              "draw the run: .svg, .png or .pdf, by gnuplot; --picture FILE FOLDER... draws runs that are "
+              "there "
+              "already, several to compare them"},
+             {"picture-xt", "FILE",
+              "draw stress and velocity over X and time, of 200 snapshots unless --snapshots is given"},
              {"quiet", "", "print nothing but errors"}}},
            {"comparison",
             "with golden data, or of two builds stage by stage",
@@ -72,7 +81,19 @@ Tool this_tool() {
       .remarks =
           "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run\n"
           "became invalid, 5 cannot read or write, 6 this build or process does not\n"
-          "compute as IEEE 754 says, 128 + n stopped by signal n.\n"};
+          "compute as IEEE 754 says, 128 + n stopped by signal n.\n",
+      .takes_arguments = true};
+}
+
+/// Draws what is asked for; the exit code, of which `undrawn` says that there is no gnuplot.
+int draw(const CommandLine& given, const std::vector<std::string>& folders, int code, int undrawn) {
+  const HeldInterruption held;
+  try {
+    return draw_runs(given, folders) ? code : undrawn;
+  } catch (const Interrupted& signal) {
+    std::cerr << "hompm-run: stopped by " << signal.name() << " while the picture was drawn" << std::endl;
+    return signal.exit_code();
+  }
 }
 
 int run(const CommandLine& given) {
@@ -81,11 +102,17 @@ int run(const CommandLine& given) {
     std::cout << (given.has("list") ? catalogue(form) : key_reference(form));
     return success;
   }
+  check_picture_options(given);
+  if (!given.arguments.empty()) return draw(given, given.arguments, success, bad_file);
   std::optional<Checkpoint> from;
   if (given.has("resume")) from = read_checkpoint(given.text("resume"));
   Scene scene = from ? resumed_scene(given, *from) : scene_of(given);
   if (given.has("check")) demand_same_scene(scene, given);
-  return run_scene(std::move(scene), given, std::move(from));
+  const std::string folder = output_folder(given, scene);
+  const int code = run_scene(std::move(scene), given, std::move(from));
+  const bool ran =
+      (code == success || code == different) && !given.has("critical-step") && !given.has("explain");
+  return ran ? draw(given, {folder}, code, code) : code;
 }
 
 }  // namespace

@@ -19,8 +19,9 @@
 
 namespace hompm {
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SchemeLook, colour, dash, shape)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Scheme, name, summary, source, lowest_degree, highest_degree,
-                                   default_degree)
+                                   default_degree, look)
 
 namespace cli {
 namespace {

@@ -36,10 +36,14 @@ std::vector<Override> overrides_of(const CommandLine& given) {
     const auto [key, value] = key_and_value(text);
     overrides.push_back({key, value, "--set " + text});
   }
+  // Rows of pixels.
+  if (given.has("picture-xt") && !given.has("snapshots") && !given.has("check"))
+    overrides.push_back({"output.snapshots", "200", "--picture-xt " + given.text("picture-xt")});
   return overrides;
 }
 
-/// "here `cells = 64`, there `cells = 32`", for the first line in which two texts differ.
+}  // namespace
+
 std::string first_different_line(const std::string& here, const std::string& there) {
   std::istringstream a(here);
   std::istringstream b(there);
@@ -51,8 +55,6 @@ std::string first_different_line(const std::string& here, const std::string& the
   } while (line_a == line_b);
   return "here `" + line_a + "`, there `" + line_b + "`";
 }
-
-}  // namespace
 
 Scene scene_of(const CommandLine& given) {
   auto overrides = overrides_of(given);

@@ -126,6 +126,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+}  // namespace
+
 fs::path output_folder(const CommandLine& given, const Scene& scene) {
   if (given.has("output")) return given.text("output");
   if (given.has("resume")) return checkpoint_folder(given.text("resume"));
@@ -133,6 +135,8 @@ fs::path output_folder(const CommandLine& given, const Scene& scene) {
   if (!scene.variant.empty()) name += "-" + scene.variant;
   return fs::path("hompm-out") / (name + "-" + scene.scheme.name);
 }
+
+namespace {
 
 /// Throws `FileError` where --no-clobber forbids to replace what is there.
 void demand_no_run(const RunFolder& folder, bool resumed) {
@@ -160,14 +164,7 @@ Checkpoint starting_point(const Scene& scene, const CommandLine& given, std::opt
   point.vtk = point.vtk && !given.has("no-vtk");
   if (given.has("checkpoint")) point.every = parse_steps(given.text("checkpoint"), "--checkpoint", 1);
   point.keep = point.keep || given.has("keep-checkpoint");
-  if (given.has("errors")) {
-    point.errors = given.text("errors");
-    if (point.errors != "auto" && point.errors != "full" && point.errors != "none")
-      throw UsageError("--errors " + point.errors + ": there are auto, full, none" +
-                       suggestion(point.errors, {"auto", "full", "none"}));
-  } else if (given.has("check")) {
-    point.errors = "full";
-  }
+  if (given.has("errors") || given.has("check")) point.errors = errors_asked_for(given);
   return point;
 }
 
@@ -191,28 +188,46 @@ struct BudgetUsedUp {};
 /// Errors against the reference solution as far as they are asked for; `reason` says why there are none.
 /// Throws `Interrupted`.
 std::optional<ErrorReport> errors_of(const Scene& scene, const RunResult& result, const std::string& asked,
-                                     double budget, bool quiet, std::string& reason) {
-  if (asked == "none") {
-    reason = "--errors none was given";
-    return std::nullopt;
-  }
-  const Stopwatch clock;
-  ProgressBar bar(quiet, "errors ");
-  const auto watch = [&](double part) {
-    check_interruption();
-    if (asked == "auto" && clock.seconds() > budget) throw BudgetUsedUp();
-    constexpr double parts = 1e6;
-    bar.update(static_cast<std::int64_t>(parts * part), static_cast<std::int64_t>(parts));
-  };
-  try {
-    return judge(scene, result, reason, watch);
-  } catch (const BudgetUsedUp&) {
-    reason = "the reference solution takes longer than the run; --errors full computes it all the same";
-    return std::nullopt;
-  }
+                                     double seconds, bool quiet, std::string& reason) {
+  std::optional<ErrorReport> errors;
+  const auto work = [&](const ReferenceWatch& watch) { errors = judge(scene, result, reason, watch); };
+  within_budget(asked, seconds, quiet, reason, work);
+  return errors;
 }
 
 }  // namespace
+
+std::string errors_asked_for(const CommandLine& given) {
+  if (!given.has("errors")) return given.has("check") ? "full" : "auto";
+  const std::string asked = given.text("errors");
+  if (asked != "auto" && asked != "full" && asked != "none")
+    throw UsageError("--errors " + asked + ": there are auto, full, none" +
+                     suggestion(asked, {"auto", "full", "none"}));
+  return asked;
+}
+
+bool within_budget(const std::string& asked, double seconds, bool quiet, std::string& reason,
+                   const std::function<void(const ReferenceWatch&)>& work) {
+  if (asked == "none") {
+    reason = "--errors none was given";
+    return false;
+  }
+  constexpr double least = 2.0;  // s
+  const Stopwatch clock;
+  ProgressBar bar(quiet, "errors ");
+  try {
+    work([&](double part) {
+      check_interruption();
+      if (asked == "auto" && clock.seconds() > std::max(seconds, least)) throw BudgetUsedUp();
+      constexpr double parts = 1e6;
+      bar.update(static_cast<std::int64_t>(parts * part), static_cast<std::int64_t>(parts));
+    });
+    return true;
+  } catch (const BudgetUsedUp&) {
+    reason = "the reference solution takes longer than the run; --errors full computes it all the same";
+    return false;
+  }
+}
 
 int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> from) {
   const bool quiet = given.has("quiet");
@@ -309,11 +324,9 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
   folder.publish(begin.keep);
 
   // 3. The reference solution, and what it says.
-  constexpr double least_budget = 2.0;  // s
   const Stopwatch reference_clock;
   try {
-    errors =
-        errors_of(scene, result, begin.errors, std::max(seconds, least_budget), quiet, no_errors_because);
+    errors = errors_of(scene, result, begin.errors, seconds, quiet, no_errors_because);
   } catch (const Interrupted& signal) {
     say_stopped(signal, " while errors were computed; the run in " + where + " is complete without them");
     return signal.exit_code();

@@ -1,9 +1,13 @@
 // From the options of hompm-run to the scene they ask for, and what is done with it.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include <hompm/kit/recorder/checkpoint.hpp>
+#include <hompm/reference/reference.hpp>
 
 #include "common.hpp"
 
@@ -26,5 +30,20 @@ Scene resumed_scene(const CommandLine& given, const Checkpoint& from);
 /// snapshot, marked as such. A signal that asks to end is answered with one line and the exit code 128 + its
 /// number. Returns the exit code; throws what `run` throws, `FileError` and `UsageError`.
 int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> from);
+
+/// Where the run of the scene is written.
+std::filesystem::path output_folder(const CommandLine& given, const Scene& scene);
+
+/// "auto", "full" or "none", which --errors says. Throws `UsageError` for another word.
+std::string errors_asked_for(const CommandLine& given);
+
+/// Does the work, which computes a reference solution and tells it how far it is, as long as it takes, or
+/// with "auto" as long as the run, which took so many seconds, or 2 s; false, and why, where it was not done.
+/// Throws `Interrupted`.
+bool within_budget(const std::string& asked, double seconds, bool quiet, std::string& reason,
+                   const std::function<void(const ReferenceWatch&)>& work);
+
+/// "here `cells = 64`, there `cells = 32`", for the first line in which two texts differ.
+std::string first_different_line(const std::string& here, const std::string& there);
 
 }  // namespace hompm::cli

@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 from cut_span import cut_span as exact_cut_span
+from picture_tools import curve, page, panel, stroke
 from table_tools import ROOT, short, table
 
 TESTS = "grid crossing*,a free end that passes*,a vanishing cut*,rigid flight*,a uniform strain*,extension*,constant stress*,with one particle*," \
@@ -128,28 +129,21 @@ PANELS = [  # case, title, axes, options, and a curve beside
 EXACT = {"ten": "10", "twentieth": "0.05", "shock": "x < 0.75 ? -0.640388 : 0"}
 
 
-def picture(tools, start, block, styles):
+def picture(tools, looks, terminal):
     """Twelve panels."""
     m = measured(tools)
-    script = start.format(size="1100,1280", name="hard-cases").replace("Helvetica,15", "Helvetica,12")
-    script += 'set multiplot layout 4,3\nset format y "%g"\n'
-    colours = styles | {"before": ("#0072B2", 7), "after": ("#D55E00", 7)}
+    before_after = {"before": stroke("#0072B2"), "after": stroke("#D55E00")}
+    panels = []
     for case, title, across, up, options, exact in PANELS:
-        plots = []
+        logarithmic = "logscale y" in options or "logscale xy" in options
+        floor = 1e-16 if logarithmic else None  # rounding, or nothing at all
+        curves = []
         for series, points in m[case].items():
-            name = f"{case}_{series}".replace("-", "_")
-            points = sorted(points)
-            few = len(points) <= 16
             step = max(1, len(points) // 50)
-            floor = 1e-16 if "logscale y" in options or "logscale xy" in options else None  # rounding, or nothing at all
-            script += block(name, [[f"{x:.4g}", f"{max(value, floor) if floor else value:.3g}"] for x, value in points[::step]])
-            colour, shape = colours[series]
-            plots.append(f'${name} using 1:2 with {f"linespoints pointtype {shape} pointsize 0.6" if few else "lines"} linewidth 2 linecolor "{colour}" title "{series}"')
+            look = (looks | before_after)[series] | {"width": 1.5, "size": 0.5 if len(points) <= 16 else 0.0}
+            curves.append(curve(series, look, [(float(x), max(value, floor) if floor else value) for x, value in sorted(points)[::step]]))
         if exact:
-            plots.append(f'{EXACT[exact]} with lines linewidth 1 dashtype 2 linecolor "#000000" title "exact"')
-        script += f'reset\nset tics nomirror\nset border 3 linecolor "#404040"\nset grid linecolor "#E0E0E0" linetype 1\nset samples 400\n'
-        script += f'set title "{title}"\nset xlabel "{across}"\nset ylabel "{up}"\n{options}\n'
-        script += 'set format x "10^{%T}"\n' if "reverse" in options else ""
-        script += 'set format y "10^{%T}"\n' if "logscale y" in options or "logscale xy" in options else ""
-        script += ("set key left center samplen 1.5 spacing 0.9\n" if case == "grid-crossing" else "set key samplen 1.5 spacing 0.9\n" if case == "stiffness-contrast-profile" else "unset key\n") + "plot " + ", \\\n     ".join(plots) + "\n"
-    return script + "unset multiplot\n"
+            curves.append(curve("exact", stroke("#000000", 1, 2), EXACT[exact]))
+        powers = "set format x '10^{%T}'\n" if "reverse" in options else ""
+        panels.append(panel(title, across, up, curves, options.replace("; ", "\n") + "\nset samples 400\n" + powers, logarithmic))
+    return page("Hard cases of docs/scenes/hard", panels, 3, 276, 220, terminal)

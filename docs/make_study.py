@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes docs/accuracy-cost.md anew: runs the studies of docs/studies, keeps their numbers as CSV beside them, their pictures
-in docs/pictures, and the generated parts of the page.
+"""Writes docs/accuracy-cost.md anew: runs the studies of docs/studies, keeps their numbers as CSV beside them, and the
+generated parts of the page; docs/make_pictures.py draws them.
 
     docs/make_study.py [--tool build/release/bin] [--work build/study] [--repeats 5] [--check [--quick]]
 
@@ -17,7 +17,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -64,8 +63,6 @@ def make_study(tool, name, work, repeats):
         writer.writerow([*KEPT, "seconds"])
         for row in points:
             writer.writerow([*(row[column] for column in KEPT), times.get(row["point"], "")])
-    if name in NAMES:
-        shutil.copy(folder / "error-instructions.svg", ROOT / f"docs/pictures/accuracy-cost-{name}.svg")
 
 
 def named_points(rows):

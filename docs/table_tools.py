@@ -50,7 +50,7 @@ class Tools:
     def report(self, *options):
         """The run.json of a run, and its folder."""
         folder = pathlib.Path(tempfile.mkdtemp(dir=self.work))
-        return json.loads(self.text(*options, "--no-vtk", "--json", "--output", folder)), folder
+        return json.loads(self.text(*options, "--errors", "full", "--no-vtk", "--json", "--output", folder)), folder
 
     def reports(self, runs):
         """The run.json of many runs, in their order."""

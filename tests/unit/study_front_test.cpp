@@ -178,14 +178,18 @@ TEST_CASE("a picture draws failed points as crosses at the edge, and the referen
   outcomes.push_back(failed("bad", 32, study::Status::invalid));
   outcomes[1].record.errors->reference_errors = {2e-4, 2e-4, 2e-4};
   const auto script = study::picture_script(outcomes, Cost::instructions, "bar", "error");
-  CHECK(contains(script, "set output \"error.svg\""));
-  CHECK(contains(script, "set output \"error.png\""));
-  CHECK(contains(script, "set yrange [1e-04:1]"));
-  CHECK(contains(script, "$failed2 << EOD\n5000 1\nEOD"));
-  CHECK(contains(script, "reference's own error"));
+  CHECK(contains(script, "set output 'error.svg'"));
+  CHECK(contains(script, "set output 'error.png'"));
+  CHECK(contains(script, "set yrange [0.0001:1]"));
+  CHECK(contains(script, "<< EOD\n5000 1\nEOD"));
+  CHECK(contains(script, "own error of the reference"));
   // Nothing but failures, none of which has a cost.
   auto lost = failed("bad", 8, study::Status::refused);
   lost.record.instructions.reset();
-  CHECK(contains(study::picture_script({lost}, Cost::instructions, "bar", "error"),
-                 "$failed0 << EOD\n1 10\nEOD"));
+  CHECK(contains(study::picture_script({lost}, Cost::instructions, "bar", "error"), "<< EOD\n1 1\nEOD"));
+  // Of many schemes those that are nowhere the best are grey.
+  for (const char* name : {"a", "b", "c", "d", "e", "f"})
+    outcomes.push_back(failed(name, 8, study::Status::refused));
+  CHECK_FALSE(contains(script, "'others'"));
+  CHECK(contains(study::picture_script(outcomes, Cost::instructions, "bar", "error"), "'others'"));
 }

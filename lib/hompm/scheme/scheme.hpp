@@ -19,6 +19,13 @@ struct Splitting {
 /// the method SRKN of order 4 with 6 stages, in its form b a b.
 const Splitting& splitting(TimeIntegrator integrator);
 
+/// How pictures draw a scheme, everywhere the same.
+struct SchemeLook {
+  std::string colour;  ///< "#0072B2"
+  int dash;            ///< of its lines, as gnuplot counts
+  int shape;           ///< of its dots, as gnuplot counts
+};
+
 struct Scheme {
   std::string name;
   std::string summary;
@@ -28,6 +35,7 @@ struct Scheme {
   int default_degree;
   SchemeChoices choices;  ///< where a row is silent, those of `classical`
   bool relaxes = false;   ///< null-space relaxation unless the scene sets its rate to 0
+  SchemeLook look;
 };
 
 /// The table of schemes, in the order in which `--list` shows them.
