@@ -65,7 +65,7 @@ int run_child(std::vector<std::string> command, const std::string& out, const st
 std::optional<std::string> run_gnuplot(const std::string& script) {
   const Scratch scratch;
   const auto file = [&](const char* name) { return scratch.path() + "/" + name; };
-  study::write_whole(file("script"), script);
+  detail::write_whole(file("script"), script);
   // -d: none of the user's settings, the same picture for everybody.
   const int code = run_child({"gnuplot", "-d", file("script")}, file("out"), file("log"), check_interruption);
   if (code == no_such_program) return std::nullopt;

@@ -6,13 +6,16 @@
 //   two differ first and where each field differs most. The exit code tells the verdict: 0 identical or
 //   equivalent, 3 different. Where A is a file, see diff_options.hpp.
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include <hompm/kit/output/staging.hpp>
+#include <hompm/kit/recorder/trace_file.hpp>
 
 #include "child.hpp"
 #include "diff_options.hpp"
@@ -49,8 +52,9 @@ Tool this_tool() {
                   foreign_options()},
                  {"traces",
                   "where two runs part",
-                  {"hompm-diff --trace mine.trace theirs.trace"},
-                  {{"trace", "", "A and B are files of hompm-run --trace: say where the runs part"}}},
+                  {"hompm-diff --trace mine.trace theirs.trace", "hompm-diff --trace mine.trace"},
+                  {{"trace", "",
+                    "A and B are files of hompm-run --trace: say where the runs part; A alone is printed"}}},
                  {"outputs", "what is printed", {}, {{"quiet", "", "nothing; only the exit code tells"}}}},
       .remarks =
           "A value passes when it meets any of its bounds. Without bounds a single bit\n"
@@ -135,8 +139,45 @@ Verdict compare_file(const CommandLine& given, const std::string& file, const st
   }
 }
 
+/// One trace alone: what each stage of each step changed.
+void print_trace(const std::string& path) {
+  detail::TraceFile file(path, path);
+  std::cout << "by " << file.build << ", from step " << file.first_step << " on"
+            << (file.complete() ? "" : "; it has no end: the run was cut off, or still goes on") << '\n';
+  std::int64_t step = -1;
+  int part = 0;
+  while (const auto entry = file.next()) {
+    if (step != entry->step || part != entry->part)
+      std::cout << "step " << entry->step
+                << (entry->part > 1 ? ", part " + std::to_string(entry->part) : std::string()) << '\n';
+    step = entry->step;
+    part = entry->part;
+    file.take();
+    const detail::TraceField& field = file.fields[entry->field];
+    const std::string body = file.fields.back().body > 0 ? " of body " + std::to_string(field.body) : "";
+    std::cout << "  " << padded(file.stages[entry->stage].name, 34) << padded(field.name + body, 30) << "0x"
+              << hex(field.hash);
+    if (!field.values.empty() && !field.is_integer) {
+      std::vector<double> values(field.size);
+      detail::ByteReader in(field.values);
+      for (double& value : values) value = in.number();
+      const auto [least, most] = std::ranges::minmax_element(values);
+      std::cout << "  " << rounded(*least) << " ... " << rounded(*most);
+    }
+    std::cout << '\n';
+  }
+}
+
 Verdict compare(const CommandLine& given) {
   const auto& names = given.arguments;
+  if (given.has("trace") && names.size() == 1) {
+    for (const char* other : {"absolute", "relative", "ulps", "json", "quiet"})
+      if (given.has(other))
+        throw UsageError("--trace of one file prints it: it takes no --" + std::string(other));
+    refuse_foreign_options(given);
+    print_trace(names[0]);
+    return Verdict::identical;
+  }
   if (names.size() != 2)
     throw UsageError("A and B to compare are needed, not " + std::to_string(names.size()));
   if (given.has("quiet") && given.has("json")) throw UsageError("--quiet and --json contradict each other");

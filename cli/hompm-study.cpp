@@ -15,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <hompm/kit/output/staging.hpp>
 #include <hompm/kit/study/answers.hpp>
 #include <hompm/kit/study/measure.hpp>
 #include <hompm/numerics/floating_point.hpp>
@@ -180,7 +181,7 @@ int run_study(const StudyJob& job, const CommandLine& given) {
   if (!advice && given.has("error")) throw UsageError("--error goes with --advise");
   if (job.instructions && !has_callgrind() && !job.quiet)
     std::cerr << "hompm-study: valgrind is not there, so no instructions are counted\n";
-  study::write_whole(job.folder / "study.toml", study::study_text(job.study));
+  detail::write_whole(job.folder / "study.toml", study::study_text(job.study));
   const HeldInterruption held;
   try {
     run_points(job, workers);

@@ -3,7 +3,7 @@
 
     cli/make_man.py BIN_DIR OUTPUT_DIR
 
-BIN_DIR holds hompm-run, hompm-diff and hompm-study; they are asked by `--help --json`, and hompm-run by `--list --json`.
+BIN_DIR holds hompm-run, hompm-diff, hompm-study and hompm-exact; they are asked by `--help --json`, and hompm-run by `--list --json`.
 OUTPUT_DIR gets man1/TOOL.1.gz, bash/TOOL, zsh/_TOOL and fish/TOOL.fish.
 """
 import gzip
@@ -12,7 +12,7 @@ import pathlib
 import subprocess
 import sys
 
-TOOLS = ["hompm-run", "hompm-diff", "hompm-study"]
+TOOLS = ["hompm-run", "hompm-diff", "hompm-study", "hompm-exact"]
 FILES = ("FILE", "DIR")  # values that are names of files or folders
 
 

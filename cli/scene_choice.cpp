@@ -1,10 +1,10 @@
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/verify/compare.hpp>
 #include <hompm/number.hpp>
 
 #include "scene_run.hpp"
@@ -32,6 +32,7 @@ std::vector<Override> overrides_of(const CommandLine& given) {
   for (const auto& [option, key] : shortcuts)
     if (given.has(option))
       overrides.push_back({key, given.text(option), "--" + option + " " + given.text(option)});
+  for (const auto& text : given.texts("probe")) overrides.push_back({"probe", text, "--probe " + text});
   for (const auto& text : given.texts("set")) {
     const auto [key, value] = key_and_value(text);
     overrides.push_back({key, value, "--set " + text});
@@ -44,18 +45,6 @@ std::vector<Override> overrides_of(const CommandLine& given) {
 
 }  // namespace
 
-std::string first_different_line(const std::string& here, const std::string& there) {
-  std::istringstream a(here);
-  std::istringstream b(there);
-  std::string line_a;
-  std::string line_b;
-  do {
-    if (!std::getline(a, line_a)) line_a = "nothing more";
-    if (!std::getline(b, line_b)) line_b = "nothing more";
-  } while (line_a == line_b);
-  return "here `" + line_a + "`, there `" + line_b + "`";
-}
-
 Scene scene_of(const CommandLine& given) {
   auto overrides = overrides_of(given);
   if (given.has("case") && given.has("scene")) throw UsageError("--case and --scene exclude each other");
@@ -64,14 +53,36 @@ Scene scene_of(const CommandLine& given) {
   if (given.has("case")) return load_builtin(given.text("case"), given.text("variant"), overrides);
   if (given.has("check")) return load_scene(fs::path(given.text("check")) / "scene.toml", overrides);
   throw UsageError(
-      "nothing to run: name a --case (bar, column), a --scene FILE, or a golden folder to --check");
+      "nothing to run: name a --case (bar, column), a --scene FILE, or (hompm-run) a golden folder to "
+      "--check");
+}
+
+std::string first_different_line(const std::string& here, const std::string& there) {
+  const auto [mine, theirs] = detail::first_different_lines(here, there);
+  return "here `" + mine + "`, there `" + theirs + "`";
+}
+
+std::vector<Option> scene_options(const std::vector<Option>& more) {
+  std::vector<Option> options{{"case", "NAME", "built-in case: bar, column"},
+                              {"variant", "NAME", "variant of the case"},
+                              {"scene", "FILE", "scene file instead of a case"},
+                              {"set", "KEY=VALUE...", "set any key of the scene"},
+                              {"end-time", "S", "end_time, s"}};
+  options.insert(options.end(), more.begin(), more.end());
+  return options;
 }
 
 void demand_same_scene(Scene& scene, const CommandLine& given) {
   const std::string folder = given.text("check");
   const Scene golden = load_scene(fs::path(folder) / "scene.toml", {});
-  if (!given.has("snapshots") && scene.origins.count("output.snapshots") == 0) scene.output = golden.output;
-  const std::string mine = scene_text(scene);
+  const auto [snapshots, history] = golden.output;
+  const bool among = scene.output.snapshots % snapshots == 0 && scene.output.history % history == 0;
+  if (!among && !given.has("snapshots") && scene.origins.count("output.snapshots") == 0)
+    scene.output = golden.output;
+  Scene same = scene;
+  if (among) same.output = golden.output;
+  same.probes = golden.probes;
+  const std::string mine = scene_text(same);
   const std::string theirs = scene_text(golden);
   if (mine == theirs) return;
   throw UsageError("--check " + folder +

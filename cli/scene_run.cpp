@@ -133,7 +133,20 @@ fs::path output_folder(const CommandLine& given, const Scene& scene) {
   if (given.has("resume")) return checkpoint_folder(given.text("resume"));
   std::string name = scene.case_name;
   if (!scene.variant.empty()) name += "-" + scene.variant;
-  return fs::path("hompm-out") / (name + "-" + scene.scheme.name);
+  return fs::path("hompm-out") /
+         (name + "-" + scene.scheme.name + "-p" + std::to_string(scene.scheme.degree) + "-" +
+          std::to_string(scene.scheme.cells));
+}
+
+/// What is told where a run of another scene is in a folder that nobody named; "" where there is none.
+std::string replaced(const fs::path& folder, const CommandLine& given, const Scene& scene) {
+  std::error_code ignored;
+  if (given.has("output") || given.has("resume") || !fs::exists(folder / "scene.toml", ignored)) return "";
+  const std::string there = read_file(folder / "scene.toml");
+  const std::string here = scene_text(scene);
+  if (here == there) return "";
+  return "the run of another scene in " + folder.string() +
+         " is replaced (--output DIR keeps it): " + first_different_line(here, there);
 }
 
 namespace {
@@ -150,7 +163,7 @@ void demand_no_run(const RunFolder& folder, bool resumed) {
 }
 
 int check_against(const fs::path& golden, const fs::path& folder, bool quiet) {
-  const Comparison comparison = compare_folders(folder, golden, {});
+  const Comparison comparison = compare_folders(folder, golden, {}, true);
   const bool same = comparison.verdict == Verdict::identical;
   if (!quiet || !same)
     (quiet ? std::cerr : std::cout) << "  golden    " << golden.string() << ": " << text_of(comparison);
@@ -168,9 +181,16 @@ Checkpoint starting_point(const Scene& scene, const CommandLine& given, std::opt
   return point;
 }
 
-/// The trace that --trace asks for; nothing without.
-std::unique_ptr<Trace> asked_trace(const CommandLine& given) {
+/// The trace that --trace asks for, or the table that --dump-steps does; nothing without.
+std::unique_ptr<Trace> asked_trace(const CommandLine& given, RunFolder& folder) {
   TraceOptions options;
+  if (given.has("dump-steps")) {
+    for (const char* other : {"trace", "resume"})
+      if (given.has(other))
+        throw UsageError("--dump-steps and --" + std::string(other) + " exclude each other");
+    options.table_steps = parse_steps(given.text("dump-steps"), "--dump-steps", 1);
+    return std::make_unique<Trace>(folder.add("steps.csv"), options);
+  }
   if (given.has("trace-values")) {
     if (!given.has("trace")) throw UsageError("--trace-values goes with --trace");
     options.values_from = parse_steps(given.text("trace-values"), "--trace-values", 0);
@@ -263,25 +283,31 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
   RunFolder folder(output_folder(given, scene), begin.vtk);
   const std::string where = folder.path().string();
   if (given.has("no-clobber")) demand_no_run(folder, resumed);
-  const auto trace = asked_trace(given);
+  auto trace = asked_trace(given, folder);
   const Stopwatch clock(begin.seconds);
   std::optional<CheckpointWriter> checkpoints;
   if (begin.every > 0 || begin.keep) checkpoints.emplace(folder, begin, warn);
   if (!resumed && !quiet && fs::exists(folder.path() / checkpoint_name))
     warn("the run that was stopped in " + where + " is replaced (--resume " + where +
          " would go on with it)");
+  if (const std::string told = replaced(folder.path(), given, scene); !told.empty() && !quiet) warn(told);
   for (const auto& row : begin.history) folder.write(row);
   for (const auto& snapshot : begin.snapshots) folder.write(snapshot);
+  folder.write_probes(begin.probes);
   Snapshot last_valid = begin.snapshots.empty() ? Snapshot{} : begin.snapshots.back();
 
   RunObserver observer;
+  const auto keep = [&](const auto& record) {
+    folder.write(record);
+    if (checkpoints) checkpoints->keep(record);
+  };
   observer.snapshot = [&](const Snapshot& snapshot) {
-    folder.write(snapshot);
-    if (checkpoints) checkpoints->keep(snapshot);
+    keep(snapshot);
     last_valid = snapshot;
   };
-  observer.history = [&](const HistoryRow& row) {
-    folder.write(row);
+  observer.history = keep;
+  observer.probe = [&](const ProbeRow& row) {
+    folder.write_probes(detail::probe_text(row));
     if (checkpoints) checkpoints->keep(row);
   };
   if (checkpoints)
@@ -296,6 +322,7 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
     observer.progress = [&](std::int64_t step, std::int64_t steps) { bar.update(step, steps); };
     result = run(scene, stepping, observer, resumed ? &begin.point : nullptr);
   } catch (const InvalidRun& invalid) {
+    trace.reset();  // ends it as far as that is possible
     folder.keep_invalid(last_valid, invalid.what());
     throw;
   }

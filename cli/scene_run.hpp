@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <hompm/kit/recorder/checkpoint.hpp>
 #include <hompm/reference/reference.hpp>
@@ -17,8 +18,15 @@ namespace hompm::cli {
 /// about it. Throws `UsageError`, and what `load_scene` throws.
 Scene scene_of(const CommandLine& given);
 
-/// Throws `UsageError` when the golden folder that --check names holds another scene. How often to write is
-/// not part of what is simulated: it follows the golden scene unless the command line says otherwise.
+/// "here `cells = 64`, there `cells = 32`", for the first line in which two texts differ.
+std::string first_different_line(const std::string& here, const std::string& there);
+
+/// The options by which a scene is named and changed, and `more`.
+std::vector<Option> scene_options(const std::vector<Option>& more);
+
+/// Throws `UsageError` when the golden folder that --check names holds another scene. How often to write and
+/// where to probe is not part of what is simulated: the scene's own is kept where all times of the golden
+/// data are among its own; else the golden scene's is taken, unless the command line says otherwise.
 void demand_same_scene(Scene& scene, const CommandLine& given);
 
 /// The scene of the checkpoint, with a later end time where the command line asks for one. Throws
@@ -42,8 +50,5 @@ std::string errors_asked_for(const CommandLine& given);
 /// Throws `Interrupted`.
 bool within_budget(const std::string& asked, double seconds, bool quiet, std::string& reason,
                    const std::function<void(const ReferenceWatch&)>& work);
-
-/// "here `cells = 64`, there `cells = 32`", for the first line in which two texts differ.
-std::string first_different_line(const std::string& here, const std::string& there);
 
 }  // namespace hompm::cli

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include <hompm/kit/output/staging.hpp>
 #include <hompm/kit/recorder/bytes.hpp>
 #include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/kit/study/answers.hpp>
@@ -120,7 +121,7 @@ bool run_point(const StudyJob& job, const study::Point& point) {
   study::Measured measured = study::measure(job.study, point, program, check_interruption);
   if (job.instructions && has_callgrind() && !measured.moments.empty())
     measured.record.instructions = count_instructions(measured, check_interruption);
-  study::write_whole(study::record_path(job.folder, point.name), study::record_text(measured.record));
+  detail::write_whole(study::record_path(job.folder, point.name), study::record_text(measured.record));
   return true;
 }
 
@@ -202,7 +203,7 @@ void run_times(const StudyJob& job, int rounds) {
       if (static_cast<int>(run.times.seconds.size()) > round) continue;
       check_interruption();
       run.times.seconds.push_back(study::timed(run.scene));
-      study::write_whole(study::times_path(job.folder, run.times.name), study::times_text(run.times));
+      detail::write_whole(study::times_path(job.folder, run.times.name), study::times_text(run.times));
       done += std::int64_t{run.scene.scheme.cells} * run.scene.scheme.particles_per_cell *
               time_stepping(run.scene).steps;
       bar.update(done, all);
@@ -248,7 +249,7 @@ int write_study_files(const StudyJob& job) {
   for (study::Outcome& outcome : untimed) outcome.seconds.clear();
   const study::Cost cost = study::steady_cost(outcomes);
   const auto write = [&](const std::string& name, const std::string& text) {
-    study::write_whole(job.folder / name, text);
+    detail::write_whole(job.folder / name, text);
   };
   write("points.csv", study::points_csv(untimed));
   write("study.json", study::study_json(job.study, untimed));

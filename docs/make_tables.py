@@ -584,6 +584,7 @@ def mentions(tools):
     names += [name for effect in catalogue["effects"] for name in [effect["name"], *(key["path"] for key in effect["parameters"])]]
     yield from (("docs/scene.md", name) for name in names)
     yield from (("docs/comparing.md", option) for option in options_of(tools, "hompm-diff"))
+    yield from (("docs/exact.md", option) for option in options_of(tools, "hompm-exact"))
     yield from (("tests/README.md", folder.name) for folder in (ROOT / "tests").iterdir() if folder.is_dir() and folder.name != "support")
     scene = ["--case", "column", "--set", "ends.left=free", "--set", "ends.right=fixed"]
     scenes = [[*scene, "--scheme", scheme] for scheme in tools.schemes()]

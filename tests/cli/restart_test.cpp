@@ -13,7 +13,7 @@ namespace {
 
 const std::string tool = HOMPM_BIN_DIR "/hompm-run";
 /// A run of 2000 steps: some 40 ms.
-const std::string scene = " --case bar --cells 8 --end-time 0.2 --snapshots 5";
+const std::string scene = " --case bar --cells 8 --end-time 0.2 --snapshots 5 --probe 10 --probe right";
 
 /// Files of `folder` with their content but for the wall clock, by name.
 std::map<std::string, std::string> content(const fs::path& folder) {

@@ -65,7 +65,7 @@ TEST_CASE("hompm-run leaves a whole folder, and the same bytes the second time")
       run_command("cd " + quoted(scratch.path().string()) + " && " + tool + quick + " --snapshots 2");
   INFO(first.err);
   REQUIRE(first.exit_code == 0);
-  const fs::path folder = scratch / "hompm-out/bar-large-tielen2017";
+  const fs::path folder = scratch / "hompm-out/bar-large-tielen2017-p2-8";
   CHECK(files_below(folder) == std::vector<std::string>{"history.csv", "particles.csv", "run.json", "run.pvd",
                                                         "scene.toml", "stress.csv", "timing.json",
                                                         "vtk/snapshot_0000.vtu", "vtk/snapshot_0001.vtu",

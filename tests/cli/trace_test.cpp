@@ -85,7 +85,9 @@ TEST_CASE("what cannot be traced or compared: exit 2 or 5 and the reason") {
         Refused{diff + "none text", "cannot read none: No such file", 5},
         Refused{diff + ". text", "cannot read .: it is a folder", 5},
         Refused{diff + "--ulps all=1 text text", "--trace compares bits: it takes no --ulps", 2},
-        Refused{diff + "text", "A and B to compare are needed, not 1", 2}}) {
+        Refused{diff + "text", "cannot read text: it is not a trace of hompm-run --trace", 5},
+        Refused{diff + "--ulps all=1 text", "--trace of one file prints it: it takes no --ulps", 2},
+        Refused{diff + "a b c", "A and B to compare are needed, not 3", 2}}) {
     const auto done = run_command("cd " + quoted(scratch.path().string()) + " && " + command);
     INFO(command << " -> " << done.err);
     CHECK(done.exit_code == exit_code);

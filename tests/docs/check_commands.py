@@ -3,7 +3,7 @@
 
 Usage: check_commands.py BIN_DIR [--quick]
 
-Each file gets a copy of the source tree to work in, and BIN_DIR (hompm-run, hompm-diff, hompm-study) on the PATH. In it
+Each file gets a copy of the source tree to work in, and BIN_DIR (hompm-run, hompm-diff, hompm-study, hompm-exact) on the PATH. In it
 - a fenced block of any language whose first line is `# NAME`, with a dot in NAME, is written to the file NAME;
 - the lines of a ```sh block are run in order, each by a shell of its own (a `\\` at the end joins it with the next);
 - a line that ends in `# exit N` must end with that exit code, all others with 0;
@@ -136,7 +136,7 @@ def main():
         print(__doc__, file=sys.stderr)
         return 2
     tools = pathlib.Path(sys.argv[1]).resolve()
-    for tool in ("hompm-run", "hompm-diff", "hompm-study"):
+    for tool in ("hompm-run", "hompm-diff", "hompm-study", "hompm-exact"):
         if not (tools / tool).exists():
             print(f"check_commands: there is no {tools / tool}", file=sys.stderr)
             return 2

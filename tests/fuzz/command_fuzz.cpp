@@ -1,6 +1,7 @@
 // Any command line gives a result or is refused in words one can read, never as an internal error. The first
-// line of the input names the tool (run, diff, study), each further line is an argument. The tools run in
-// this process, in an empty folder with a few good files; hompm-run only explains, hompm-study only lists.
+// line of the input names the tool (run, diff, study, exact), each further line is an argument. The tools run
+// in this process, in an empty folder with a few good files; hompm-run only explains, hompm-study only lists,
+// hompm-exact computes a short time.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +20,7 @@
 int hompm_run_main(int argc, char** argv);
 int hompm_diff_main(int argc, char** argv);
 int hompm_study_main(int argc, char** argv);
+int hompm_exact_main(int argc, char** argv);
 
 namespace {
 
@@ -70,9 +72,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<std::string> words = lines_of(std::string(reinterpret_cast<const char*>(data), size));
   if (words.empty() || !std::all_of(words.begin(), words.end(), is_harmless)) return 0;
   const std::string tool = words.front();
-  if (tool != "run" && tool != "diff" && tool != "study") return 0;
+  if (tool != "run" && tool != "diff" && tool != "study" && tool != "exact") return 0;
   if (tool == "run") words.emplace_back("--explain");
   if (tool == "study") words.emplace_back("--list");
+  if (tool == "exact") words.emplace_back("--end-time=0.01");
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   const int argc = static_cast<int>(argv.size());
@@ -81,9 +84,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string errors;
   {
     const Caught caught;
-    code = tool == "run"    ? hompm_run_main(argc, argv.data())
-           : tool == "diff" ? hompm_diff_main(argc, argv.data())
-                            : hompm_study_main(argc, argv.data());
+    code = tool == "run"     ? hompm_run_main(argc, argv.data())
+           : tool == "diff"  ? hompm_diff_main(argc, argv.data())
+           : tool == "exact" ? hompm_exact_main(argc, argv.data())
+                             : hompm_study_main(argc, argv.data());
     errors = caught.errors();
   }
   demand(code >= 0 && code != 1 && code <= 6, "exit code " + std::to_string(code) + ": " + errors);

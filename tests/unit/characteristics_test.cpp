@@ -43,7 +43,7 @@ TEST_CASE("until the wave reaches the free end the column is an exact simple wav
   X.insert(X.end(), {0.95, 1.0});  // not yet reached
   v.insert(v.end(), 2, b * time);
   stress.insert(stress.end(), 2, 0.0);
-  const ReferenceFields fields = gas_column(column, 32)(time, X);
+  const ReferenceFields fields = gas_column(column, 32).at(time, X);
   CHECK(largest_difference(fields.velocity, v) < 1e-12);
   CHECK(largest_difference(fields.stress, stress) < 1e-7);  // 1e-12 E
   CHECK(std::abs(fields.displacement.back() - 0.5 * b * time * time) < 1e-15);
@@ -52,7 +52,7 @@ TEST_CASE("until the wave reaches the free end the column is an exact simple wav
 TEST_CASE("displacement, velocity and stress of the column belong together", "[characteristics]") {
   // λ = 1 + ∂u/∂X and v = ∂u/∂t by central differences: error h² times a third derivative, rounding 1e-15/h.
   const double h = 1e-5;
-  const FieldsAt at = gas_column(column, 32);
+  const FieldsAt at = gas_column(column, 32).at;
   for (const double time : {0.06, 0.25, 0.61, 2.4}) {
     const std::vector<double> X{0.1, 0.37, 0.85};
     const auto before = at(time - h / 10.0, X);
@@ -75,7 +75,7 @@ TEST_CASE("displacement, velocity and stress of the column belong together", "[c
 
 TEST_CASE("the net converges with high order", "[characteristics]") {
   const std::vector<double> X = points(100);
-  const auto at = [&](int curves) { return gas_column(column, curves)(0.5, X).displacement; };
+  const auto at = [&](int curves) { return gas_column(column, curves).at(0.5, X).displacement; };
   const std::vector<double> exact = at(48);
   const double coarse = largest_difference(at(8), exact);
   const double fine = largest_difference(at(16), exact);
@@ -91,7 +91,7 @@ TEST_CASE("the method of lines tends to the net", "[characteristics]") {
   Loads loads;
   loads.gravity = {{.value = -9.81}};
   const std::vector<double> X = points(100);
-  const ReferenceFields exact = gas_column(column, 32)(0.5, X);
+  const ReferenceFields exact = gas_column(column, 32).at(0.5, X);
   const auto error = [&](int elements) {
     return largest_difference(method_of_lines(scene, loads, {elements, 4, 1.0})(0.5, X).displacement,
                               exact.displacement);
@@ -105,7 +105,7 @@ TEST_CASE("the method of lines tends to the net", "[characteristics]") {
 TEST_CASE("a shock ends the smooth solution of the column", "[characteristics]") {
   const GasColumn soft{1.0, 1000.0, std::sqrt(10.0), -9.81};
   const std::vector<double> X = points(5);
-  const FieldsAt at = gas_column(soft, 32);
+  const FieldsAt at = gas_column(soft, 32).at;
   at(0.5, X);
   CHECK_THROWS_AS(at(0.4, X), Error);
   CHECK_THROWS_AS(at(5.0, X), Error);

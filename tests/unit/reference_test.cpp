@@ -149,7 +149,7 @@ TEST_CASE("viscosity damps a mode with half of the viscosity times its wave numb
 }
 
 TEST_CASE("a step of traction sends d'Alembert's wave", "[reference]") {
-  // Until the wave is back the loaded end moves at p/(ρ0 c); at the kink the method of lines is of low order.
+  // Until the wave is back the loaded end moves at p/(ρ0 c); rounding of one reflection.
   const double p = 200.0, time = 0.13;
   for (const bool right : {true, false}) {
     Scene scene = column("linear");
@@ -159,9 +159,9 @@ TEST_CASE("a step of traction sends d'Alembert's wave", "[reference]") {
         effect("traction", {{"end", right ? "left" : "right"}, {"value", 1e4}})};  // on the support
     const ReferenceFields fields = reference(scene).at(time, std::vector<double>{0.0, 0.5, 1.0});
     const double sign = right ? 1.0 : -1.0;
-    CHECK(std::abs(sign * fields.displacement[right ? 2 : 0] - p * time / 1e4) < 1e-4 * p * time / 1e4);
-    CHECK(std::abs(sign * fields.displacement[1] - p * (time - 0.05) / 1e4) < 1e-3 * p * time / 1e4);
-    CHECK(fields.displacement[right ? 0 : 2] == 0.0);
+    CHECK(std::abs(sign * fields.displacement[right ? 2 : 0] - p * time / 1e4) < 1e-16);
+    CHECK(std::abs(sign * fields.displacement[1] - p * (time - 0.05) / 1e4) < 1e-16);
+    CHECK(std::abs(fields.displacement[right ? 0 : 2]) < 1e-16);
   }
 }
 

@@ -147,8 +147,27 @@ class Column {
       fields.displacement.push_back(found.place - x + 0.5 * b * time * time);
       fields.velocity.push_back(found.velocity + b * time);
       fields.stress.push_back(column_.density * c * c * (1.0 - found.density));
+      fields.stretch.push_back(1.0 / found.density);
     }
     return fields;
+  }
+
+  /// Where the kink is: on a rising curve of a number that is a multiple of n, then on the falling one.
+  double kink(double time) {
+    if (time == 0.0) return 0.0;
+    extend(time);
+    std::size_t start = 0;
+    while (start + n_ + 1 < rows_.size() && rows_[start + n_].front().time <= time) start += n_;
+    const double curve = static_cast<double>(start);
+    const bool rises = time <= rows_[start].back().time;
+    double low = rises ? curve - static_cast<double>(n_) : curve;
+    double high = low + static_cast<double>(n_);
+    Crossing found;
+    for (double other = 0.5 * (low + high); low < other && other < high; other = 0.5 * (low + high)) {
+      refine(time, 0.0, rises ? Labels{curve, other} : Labels{other, curve}, found);
+      (found.time < time ? low : high) = other;
+    }
+    return found.reference;
   }
 
  private:
@@ -268,9 +287,10 @@ Column::Labels Column::refine(double time, double X, const Labels& labels, Cross
 
 }  // namespace
 
-FieldsAt gas_column(const GasColumn& column, int curves, const ReferenceWatch& watch) {
+GasColumnSolution gas_column(const GasColumn& column, int curves, const ReferenceWatch& watch) {
   auto solution = std::make_shared<Column>(column, static_cast<std::size_t>(curves), watch);
-  return [solution](double time, std::span<const double> X) { return solution->at(time, X); };
+  return {[solution](double time, std::span<const double> X) { return solution->at(time, X); },
+          [solution](double time) { return solution->kink(time); }};
 }
 
 }  // namespace hompm

@@ -26,6 +26,10 @@ struct GasColumn {
 ///
 /// `curves` ≥ 8. The function throws `Error` when time decreases, and when it is asked for a time at which
 /// curves of one family have met: a shock has formed, and no smooth solution exists.
-FieldsAt gas_column(const GasColumn& column, int curves, const ReferenceWatch& watch = {});
+struct GasColumnSolution {
+  FieldsAt at;
+  std::function<double(double time)> kink;  ///< its place, m
+};
+GasColumnSolution gas_column(const GasColumn& column, int curves, const ReferenceWatch& watch = {});
 
 }  // namespace hompm

@@ -8,58 +8,69 @@ namespace hompm {
 
 namespace {
 
-/// u = displacement sin(kπX/L), v = velocity sin(kπX/L), `wave_number` k/L.
-ReferenceFields standing_wave(const LinearBody& body, double displacement, double velocity,
-                              double wave_number, std::span<const double> X) {
-  const double stiffness = body.density * body.wave_speed * body.wave_speed;
-  ReferenceFields fields;
-  for (const double x : X) {
-    const double sine = numerics::sin_pi(wave_number * x);
-    fields.displacement.push_back(displacement * sine);
-    fields.velocity.push_back(velocity * sine);
-    fields.stress.push_back(stiffness * displacement * numerics::pi * wave_number *
-                            numerics::cos_pi(wave_number * x));
+struct Wave {
+  double value, slope;
+};
+
+/// F(s), `rising`, or G(s): back through the reflections to the start.
+Wave traced(const WaveProblem& problem, double s, bool rising) {
+  const auto& [length, density, c] = problem.body;
+  const double bend = 0.5 * problem.acceleration / (c * c);
+  const auto& v = problem.velocity;
+  const auto& u = problem.displacement;
+  Wave sum{0.0, 0.0};
+  Wave sign{1.0, 1.0};
+  for (; rising ? s < 0.0 : s > length; rising = !rising) {
+    const double way = rising ? -s : s - length;  // since the reflection
+    const double side = rising ? -1.0 : 1.0;
+    if ((rising ? problem.ends.left : problem.ends.right) == End::fixed) {
+      sum.value -= sign.value * bend * way * way;
+      sum.slope -= sign.slope * side * 2.0 * bend * way;
+      sign.value = -sign.value;
+    } else {
+      const double strain = (rising ? problem.left : problem.right) / (density * c * c);
+      const double start = !rising && v ? v->integral_to(1.0, length) / c : 0.0;
+      sum.value += sign.value * (side * strain * way + start);
+      sum.slope += sign.slope * strain;
+      sign.slope = -sign.slope;
+    }
+    s = rising ? way : length - way;
   }
-  return fields;
+  const double place = s / length;
+  const double side = rising ? -0.5 : 0.5;
+  Wave start{0.0, 0.0};
+  if (u) start = {0.5 * u->at(place, length), 0.5 * u->slope_at(place, length)};
+  if (v) start.value += side * v->integral_to(place, length) / c;
+  if (v) start.slope += side * v->at(place, length) / c;
+  return {sum.value + sign.value * start.value, sum.slope + sign.slope * start.slope};
 }
 
 }  // namespace
 
-ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode, double time,
-                              std::span<const double> X) {
-  const double wave_number = static_cast<double>(mode) / body.length;  // over π
-  const double phase = wave_number * body.wave_speed * time;
-  const double displacement =
-      amplitude * numerics::sin_pi(phase) / (numerics::pi * wave_number * body.wave_speed);
-  return standing_wave(body, displacement, amplitude * numerics::cos_pi(phase), wave_number, X);
-}
-
-ReferenceFields released_bar(const LinearBody& body, double amplitude, int mode, double time,
-                             std::span<const double> X) {
-  const double wave_number = static_cast<double>(mode) / body.length;  // over π
-  const double phase = wave_number * body.wave_speed * time;
-  const double velocity = -amplitude * numerics::pi * wave_number * body.wave_speed * numerics::sin_pi(phase);
-  return standing_wave(body, amplitude * numerics::cos_pi(phase), velocity, wave_number, X);
-}
-
-ReferenceFields loaded_column(const LinearBody& body, double acceleration, double time,
-                              std::span<const double> X) {
-  const double c = body.wave_speed;
-  const double period = 4.0 * body.length / c;
-  double t = time - std::floor(time / period) * period;
-  const bool backwards = t > 0.5 * period;
-  if (backwards) t = period - t;
-
+ReferenceFields travelling_waves(const WaveProblem& problem, double time, std::span<const double> X) {
+  const double c = problem.body.wave_speed;
+  const double b = problem.acceleration;
+  if (problem.ends.left == End::fixed || problem.ends.right == End::fixed) {
+    const double period = 4.0 * problem.body.length / c;
+    time -= std::floor(time / period) * period;
+  }
   ReferenceFields fields;
   for (const double x : X) {
-    const double up = std::max(t - x / c, 0.0);
-    const double down = std::max(t - (2.0 * body.length - x) / c, 0.0);
-    const double velocity = acceleration * (t - up - down);
-    fields.displacement.push_back(0.5 * acceleration * (t * t - up * up - down * down));
-    fields.velocity.push_back(backwards ? -velocity : velocity);
-    fields.stress.push_back(body.density * c * acceleration * (up - down));
+    const Wave rising = traced(problem, x - c * time, true);
+    const Wave falling = traced(problem, x + c * time, false);
+    const double strain = rising.slope + falling.slope;
+    fields.displacement.push_back(0.5 * b * time * time + rising.value + falling.value);
+    fields.velocity.push_back(b * time + c * (falling.slope - rising.slope));
+    fields.stress.push_back(problem.body.density * c * c * strain);
+    fields.stretch.push_back(1.0 + strain);
   }
   return fields;
+}
+
+double front_from_left(const LinearBody& body, double time) {
+  const double trips = 0.5 * body.wave_speed * time / body.length;
+  const double way = 2.0 * body.length * (trips - std::floor(trips));
+  return std::min(way, 2.0 * body.length - way);
 }
 
 ReferenceFields manufactured_bar(const LinearBody& body, const Material& material, double amplitude,
@@ -74,6 +85,7 @@ ReferenceFields manufactured_bar(const LinearBody& body, const Material& materia
     fields.displacement.push_back(displacement * sine);
     fields.velocity.push_back(velocity * sine);
     fields.stress.push_back(std::visit([&](const auto& law) { return law.stress(1.0 + strain); }, material));
+    fields.stretch.push_back(1.0 + strain);
   }
   return fields;
 }

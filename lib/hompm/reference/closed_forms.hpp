@@ -1,6 +1,7 @@
 // Solutions of the small-strain law (σ = E (λ − 1)) in closed form, after docs/method.md.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include <hompm/materials/material.hpp>
@@ -15,22 +16,25 @@ struct LinearBody {
   double wave_speed;  ///< m/s, c = √(E/ρ0)
 };
 
-/// Free vibration between fixed ends from v(X, 0) = amplitude sin(kπX/L), k the mode (amplitude in m/s):
-/// u = amplitude/ω sin(ωt) sin(kπX/L), ω = kπc/L. `time` in s, `X` in m. (Tielen et al. 2017.)
-ReferenceFields vibrating_bar(const LinearBody& body, double amplitude, int mode, double time,
-                              std::span<const double> X);
+/// What moves an elastic body of small strains from t = 0, all of it constant.
+struct WaveProblem {
+  LinearBody body;
+  Ends ends = {};
+  std::optional<InitialField> velocity = {}, displacement = {};  ///< the latter 0 at fixed ends
+  double acceleration = 0.0;                                     ///< m/s², in +X
+  double left = 0.0, right = 0.0;                                ///< Pa, at free ends, tension positive
+};
 
-/// Free vibration between fixed ends from u(X, 0) = amplitude sin(kπX/L) at rest (amplitude in m): u =
-/// amplitude cos(ωt) sin(kπX/L), with the notation of `vibrating_bar`.
-ReferenceFields released_bar(const LinearBody& body, double amplitude, int mode, double time,
-                             std::span<const double> X);
+/// d'Alembert's solution u = bt²/2 + F(X − ct) + G(X + ct), exact, jumps included. The start gives F and G
+/// within the body; beyond it the left end gives F by G, the right end G by F: F(−s) = −b s²/(2c²) − G(s)
+/// where it is fixed, G(s) − s σ/E where it is free under the stress σ, and likewise on the right. At a front
+/// the values are those of one of its sides. With a fixed end all repeats itself after 4L/c. `time` in s, `X`
+/// in m. (Graff, Wave Motion in Elastic Solids, 1975, section 1.1.)
+ReferenceFields travelling_waves(const WaveProblem& problem, double time, std::span<const double> X);
 
-/// A column at rest, fixed at X = 0 and free at X = L, from t = 0 under the acceleration b (m/s², in +X):
-/// d'Alembert's form of the series of Tielen et al. (2017), exact. Up to t = 2L/c, with a = t − X/c, d = t −
-/// (2L − X)/c and ()₊ the positive part: u = (b/2)(t² − a₊² − d₊²); from there the motion runs backwards,
-/// with the period 4L/c. Seen by a freely falling observer it is the base that moves, and sends out waves.
-ReferenceFields loaded_column(const LinearBody& body, double acceleration, double time,
-                              std::span<const double> X);
+/// Where a front is inside the body (m) that leaves the left end at t = 0 with the wave speed and is
+/// reflected at both ends.
+double front_from_left(const LinearBody& body, double time);
 
 /// u = amplitude sin(πX/L) sin(πct/L), the solution of the effect `manufactured` (amplitude in m), for any
 /// law.

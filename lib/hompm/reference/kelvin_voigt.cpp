@@ -243,8 +243,10 @@ class Bar {
       double u = resting_.at;
       double v = resting_.rate;
       double stress = 0.0;
+      double stretch = 1.0;
       for (std::size_t i = 0; i < loads_.size(); ++i) {
         const auto [shape, slope] = at_rest(loads_[i], x);
+        stretch += slope * relaxed_[i].at;
         u += shape * relaxed_[i].at;
         v += shape * relaxed_[i].rate;
         stress += slope * histories_[i].now;
@@ -253,6 +255,7 @@ class Bar {
         const double start = scene_.initial_displacement->at(x / length_, length_);
         u += start * remembered_;
         v -= start * remembered_ * modulus_ / viscosity_;
+        stretch += scene_.initial_displacement->slope_at(x / length_, length_) * remembered_;
       }
       const double turn = x / length_;
       const Complex step{numerics::cos_pi(turn), numerics::sin_pi(turn)};
@@ -262,19 +265,22 @@ class Bar {
         const double shape = left_fixed_ ? wave.im : wave.re;
         u += mode.displacement * shape;
         v += mode.velocity * shape;
-        stress += mode.stress * (left_fixed_ ? wave.re : -wave.im);
+        const double slope = left_fixed_ ? wave.re : -wave.im;
+        stress += mode.stress * slope;
+        stretch += mode.strain * slope;
         wave = wave * step;
       }
       fields.displacement.push_back(u);
       fields.velocity.push_back(v);
       fields.stress.push_back(stress);
+      fields.stretch.push_back(stretch);
     }
     return fields;
   }
 
  private:
   struct Mode {
-    double displacement, velocity, stress;
+    double displacement, velocity, stress, strain;
   };
   struct Shape {
     double displacement;  ///< of a body with E = 1 Pa
@@ -395,7 +401,8 @@ class Bar {
       load += factor / square * histories_[i].now;
     }
     return {q.at - without_inertia.at, q.rate - without_inertia.rate,
-            wave_number * (modulus_ * q.at + viscosity_ * q.rate - load)};
+            wave_number * (modulus_ * q.at + viscosity_ * q.rate - load),
+            wave_number * (q.at - without_inertia.at)};
   }
 
   Scene scene_;
@@ -420,7 +427,7 @@ std::optional<FieldsAt> kelvin_voigt_bar(const Scene& scene, const Loads& loads,
     for (const Load& load : *some)
       if (load.amplitude.duration > 0.0 && load.amplitude.duration < 2.0 * load.amplitude.ramp_time)
         return std::nullopt;
-  return [bar, scene](double time, std::span<const double> X) {
+  return [bar, scene, viscosity = loads.viscosity](double time, std::span<const double> X) {
     if (time > 0.0) return bar->at(time, X);
     ReferenceFields fields;
     const double length = scene.body.length;
@@ -429,7 +436,10 @@ std::optional<FieldsAt> kelvin_voigt_bar(const Scene& scene, const Loads& loads,
     for (const double x : X) {
       fields.displacement.push_back(u ? u->at(x / length, length) : 0.0);
       fields.velocity.push_back(v ? v->at(x / length, length) : 0.0);
-      fields.stress.push_back(0.0);
+      const double strain = u ? u->slope_at(x / length, length) : 0.0;
+      fields.stress.push_back(scene.material.youngs_modulus * strain +
+                              (v ? viscosity * v->slope_at(x / length, length) : 0.0));
+      fields.stretch.push_back(1.0 + strain);
     }
     return fields;
   };

@@ -148,7 +148,8 @@ class Lines {
       }
       fields.displacement.push_back(rule_.interpolate(u, xi));
       fields.velocity.push_back(rule_.interpolate(v, xi));
-      fields.stress.push_back(law_.stress(rule_.interpolate(stretch, xi)) + rule_.interpolate(viscous, xi));
+      fields.stretch.push_back(rule_.interpolate(stretch, xi));
+      fields.stress.push_back(law_.stress(fields.stretch.back()) + rule_.interpolate(viscous, xi));
     }
     return fields;
   }

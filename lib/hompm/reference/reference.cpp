@@ -14,12 +14,15 @@
 namespace hompm {
 namespace {
 
-Reference exact(std::string description, FieldsAt at) {
-  return {std::move(description), std::move(at), [] { return ReferenceErrors{}; }};
-}
+std::vector<double> nowhere(double) { return {}; }
 
-void append(const std::vector<double>& more, std::vector<double>& to) {
-  to.insert(to.end(), more.begin(), more.end());
+/// A closed form, smooth unless `breaks` are told.
+Reference exact(std::string description, FieldsAt at,
+                std::function<std::vector<double>(double)> breaks = nowhere) {
+  return {.description = std::move(description),
+          .at = std::move(at),
+          .estimated_error = [] { return ReferenceErrors{}; },
+          .breaks = std::move(breaks)};
 }
 
 /// The same fields, computed for some points at a time.
@@ -31,9 +34,8 @@ FieldsAt watched(FieldsAt at, const ReferenceWatch& watch) {
     for (std::size_t first = 0; first < X.size(); first += portion) {
       watch(static_cast<double>(first) / static_cast<double>(X.size()));
       const auto some = at(time, X.subspan(first, std::min(portion, X.size() - first)));
-      append(some.displacement, fields.displacement);
-      append(some.velocity, fields.velocity);
-      append(some.stress, fields.stress);
+      for (const auto field : point_fields)
+        (fields.*field).insert((fields.*field).end(), (some.*field).begin(), (some.*field).end());
     }
     return fields;
   };
@@ -51,15 +53,6 @@ double norm(const std::vector<double>& values) {
   return std::sqrt(sum);
 }
 
-/// ‖coarse − fine‖₂ over ‖fine‖₂, or over a thousandth of `scale` where the field passes through zero; 0
-/// where there is neither.
-double relative_distance(const std::vector<double>& coarse, const std::vector<double>& fine, double scale) {
-  double difference = 0.0;
-  for (std::size_t i = 0; i < fine.size(); ++i) difference += (coarse[i] - fine[i]) * (coarse[i] - fine[i]);
-  const double size = std::max(norm(fine), 1e-3 * scale);
-  return size > 0.0 ? std::sqrt(difference) / size : 0.0;
-}
-
 /// Lets a coarser solution run along, whose distance is the estimate of the error. A wave has strain v/c, and
 /// over the body the displacement L v/c: by that each field tells how large the others are at other times.
 Reference estimated(const Scene& scene, std::string description, FieldsAt fine, FieldsAt coarse) {
@@ -71,13 +64,20 @@ Reference estimated(const Scene& scene, std::string description, FieldsAt fine, 
                                                                           std::span<const double> X) {
     ReferenceFields fields = fine(time, X);
     const ReferenceFields other = coarse(time, X);
+    for (const auto field : point_fields)
+      for (std::size_t i = 0; i < X.size(); ++i)
+        (fields.error.*field).push_back(std::abs((fields.*field)[i] - (other.*field)[i]));
     const double u = norm(fields.displacement) / length;
     const double v = norm(fields.velocity) / speed;
     const double s = norm(fields.stress) / E;
-    *estimate = {
-        .displacement = relative_distance(other.displacement, fields.displacement, length * std::max(v, s)),
-        .velocity = relative_distance(other.velocity, fields.velocity, speed * std::max(u, s)),
-        .stress = relative_distance(other.stress, fields.stress, E * std::max(u, v))};
+    // Over a thousandth of what the other fields tell where a field passes through zero.
+    const auto relative = [&](auto field, double scale) {
+      const double size = std::max(norm(fields.*field), 1e-3 * scale);
+      return size > 0.0 ? norm(fields.error.*field) / size : 0.0;
+    };
+    *estimate = {.displacement = relative(&PointFields::displacement, length * std::max(v, s)),
+                 .velocity = relative(&PointFields::velocity, speed * std::max(u, s)),
+                 .stress = relative(&PointFields::stress, E * std::max(u, v))};
     return fields;
   };
   return {std::move(description), at, [estimate] { return *estimate; }, scene.material.law != "linear"};
@@ -91,18 +91,35 @@ Loads mirrored(const Loads& loads) {
   return other;
 }
 
-FieldsAt mirrored(const FieldsAt& at, double length) {
-  return [at, length](double time, std::span<const double> X) {
-    std::vector<double> positions;
-    for (std::size_t i = X.size(); i-- > 0;) positions.push_back(length - X[i]);
-    ReferenceFields fields = at(time, positions);
+/// A solution whose X is `sign` times the way from `origin`.
+Reference placed(Reference solution, double origin, double sign) {
+  solution.at = [=, at = solution.at](double time, std::span<const double> X) {
+    std::vector<double> places;
+    for (const double x : X) places.push_back(sign * (x - origin));
+    if (sign > 0.0) return at(time, places);
+    std::ranges::reverse(places);
+    ReferenceFields fields = at(time, places);
     for (double& u : fields.displacement) u = -u;
     for (double& v : fields.velocity) v = -v;
-    std::ranges::reverse(fields.displacement);
-    std::ranges::reverse(fields.velocity);
-    std::ranges::reverse(fields.stress);
+    for (const auto field : point_fields) {
+      std::ranges::reverse(fields.*field);
+      std::ranges::reverse(fields.error.*field);
+    }
     return fields;
   };
+  if (solution.breaks)
+    solution.breaks = [=, breaks = solution.breaks](double time) {
+      std::vector<double> places = breaks(time);
+      for (double& place : places) place = origin + sign * place;
+      if (sign < 0.0) std::ranges::reverse(places);
+      return places;
+    };
+  return solution;
+}
+
+LinearBody linear_body(const Scene& scene) {
+  return {scene.body.length, scene.material.density,
+          std::sqrt(scene.material.youngs_modulus / scene.material.density)};
 }
 
 /// Solutions of a body fixed on the left and free on the right, other than by the method of lines.
@@ -121,62 +138,48 @@ std::optional<Reference> column_reference(const Scene& scene, const Loads& loads
       std::ranges::all_of(loads.gravity, [](const Load& load) { return load.amplitude.constant(); });
   const bool pulled = std::ranges::any_of(loads.right, [](const Load& load) { return load.value != 0.0; });
   const double acceleration = weight.value_or(0.0);
-  const bool only_gravity = acceleration != 0.0 && !loads.damped() && !pulled;
-  if (!only_gravity || !constant || loads.local_damping || scene.initial_velocity ||
-      scene.initial_displacement)
+  const bool only_gravity =
+      acceleration != 0.0 && constant && !loads.damped() && !loads.local_damping && !pulled;
+  if (!only_gravity || scene.material.law != "rate" || scene.initial_velocity || scene.initial_displacement)
     return std::nullopt;
-  const double speed = std::sqrt(scene.material.youngs_modulus / scene.material.density);
-  if (scene.material.law == "linear") {
-    const LinearBody body{scene.body.length, scene.material.density, speed};
-    const auto at = [body, b = acceleration](double time, std::span<const double> X) {
-      return loaded_column(body, b, time, X);
-    };
-    return exact("column of small strains, d'Alembert's solution (Tielen et al. 2017)", watched(at, watch));
-  }
-  if (scene.material.law == "rate") {
-    const GasColumn column{scene.body.length, scene.material.density, speed, acceleration};
-    return estimated(
-        scene, "column of large strains, method of characteristics (extrapolated net, 8th order)",
-        gas_column(column, 32, part_of(watch, 0.0, 0.8)), gas_column(column, 16, part_of(watch, 0.8, 1.0)));
-  }
-  return std::nullopt;
+  const GasColumn column{scene.body.length, scene.material.density, linear_body(scene).wave_speed,
+                         acceleration};
+  const auto [at, kink] = gas_column(column, 32, part_of(watch, 0.0, 0.8));
+  Reference found =
+      estimated(scene, "column of large strains, method of characteristics (extrapolated net, 8th order)", at,
+                gas_column(column, 16, part_of(watch, 0.8, 1.0)).at);
+  found.breaks = [kink = kink](double time) { return std::vector{kink(time)}; };
+  return found;
 }
 
-void add(const ReferenceFields& more, ReferenceFields& fields) {
-  const auto sum = [](const std::vector<double>& a, std::vector<double>& b) {
-    for (std::size_t i = 0; i < b.size(); ++i) b[i] += a[i];
+/// Of small strains without damping, under loads that are constant.
+std::optional<Reference> wave_reference(const Scene& scene, const Loads& loads, const ReferenceWatch& watch) {
+  for (const auto* some : {&loads.gravity, &loads.left, &loads.right})
+    if (!std::ranges::all_of(*some, [](const Load& load) { return load.amplitude.constant(); }))
+      return std::nullopt;
+  if (scene.material.law != "linear" || loads.damped()) return std::nullopt;
+  const LinearBody body = linear_body(scene);
+  const WaveProblem problem{.body = body,
+                            .ends = scene.ends,
+                            .velocity = scene.initial_velocity,
+                            .displacement = scene.initial_displacement,
+                            .acceleration = total(loads.gravity, 0.0),
+                            .left = total(loads.left, 0.0),
+                            .right = total(loads.right, 0.0)};
+  const auto at = [problem](double time, std::span<const double> X) {
+    return travelling_waves(problem, time, X);
   };
-  sum(more.displacement, fields.displacement);
-  sum(more.velocity, fields.velocity);
-  sum(more.stress, fields.stress);
-}
-
-std::optional<Reference> vibration_reference(const Scene& scene, const Loads& loads,
-                                             const ReferenceWatch& watch) {
-  const bool free = loads.gravity.empty() && !loads.damped();
-  if (scene.material.law != "linear" || !free) return std::nullopt;
-  const auto standing = [](const std::optional<InitialField>& field) {
-    return !field || field->shape == "sine";
-  };
-  const std::optional<InitialField> velocity = scene.initial_velocity;
-  const std::optional<InitialField> displacement = scene.initial_displacement;
-  if (!standing(velocity) || !standing(displacement) || (!velocity && !displacement)) return std::nullopt;
-  const LinearBody body{scene.body.length, scene.material.density,
-                        std::sqrt(scene.material.youngs_modulus / scene.material.density)};
-  const auto at = [body, velocity, displacement](double time, std::span<const double> X) {
-    if (!displacement) return vibrating_bar(body, velocity->amplitude, velocity->mode, time, X);
-    ReferenceFields fields = released_bar(body, displacement->amplitude, displacement->mode, time, X);
-    if (velocity) add(vibrating_bar(body, velocity->amplitude, velocity->mode, time, X), fields);
-    return fields;
-  };
-  return exact("vibrating bar of small strains, standing wave (Tielen et al. 2017)", watched(at, watch));
+  return exact("small strains, d'Alembert's solution", watched(at, watch), [body](double time) {
+    const double from_left = front_from_left(body, time);
+    const auto [first, last] = std::minmax({from_left, body.length - from_left});
+    return first < last ? std::vector{first, last} : std::vector{first};
+  });
 }
 
 /// Where the scene has the effect `manufactured` and no other.
 std::optional<Reference> manufactured_reference(const Scene& scene, const ReferenceWatch& watch) {
   if (scene.effects.size() != 1 || scene.effects.front().type != "manufactured") return std::nullopt;
-  const LinearBody body{scene.body.length, scene.material.density,
-                        std::sqrt(scene.material.youngs_modulus / scene.material.density)};
+  const LinearBody body = linear_body(scene);
   const auto at = [body, material = make_material(scene.material),
                    amplitude = scene.effects.front().number("amplitude")](double time,
                                                                           std::span<const double> X) {
@@ -229,16 +232,11 @@ std::optional<Reference> reference_at_origin(const Scene& scene, const Reference
 
   const bool left_fixed = scene.ends.left == End::fixed;
   const bool right_fixed = scene.ends.right == End::fixed;
-  std::optional<Reference> special;
-  if (left_fixed && !right_fixed) special = column_reference(scene, *loads, watch);
-  if (!left_fixed && right_fixed) {
-    special = column_reference(scene, mirrored(*loads), watch);
-    if (special) special->at = mirrored(special->at, scene.body.length);
-  }
-  if (left_fixed && right_fixed && !scene.rest && !loads->local_damping)
-    special = vibration_reference(scene, *loads, watch);
-  if (special) return special;
+  if (left_fixed != right_fixed)
+    if (auto column = column_reference(scene, left_fixed ? *loads : mirrored(*loads), watch))
+      return left_fixed ? *column : placed(*column, scene.body.length, -1.0);
   if (scene.rest || loads->local_damping) return std::nullopt;
+  if (auto waves = wave_reference(scene, *loads, watch)) return waves;
 
   if (scene.material.law == "linear" && loads->viscosity > 0.0) {
     const auto all = kelvin_voigt_bar(scene, *loads, 1.0);
@@ -271,12 +269,7 @@ std::optional<Reference> reference_at_origin(const Scene& scene, const Reference
 std::optional<Reference> make_reference(const Scene& scene, const ReferenceWatch& watch) {
   if (!scene.bodies.empty() || has_memory(scene.material)) return std::nullopt;
   std::optional<Reference> reference = reference_at_origin(scene, watch);
-  if (reference && scene.body.left() != 0.0)
-    reference->at = [at = reference->at, left = scene.body.left()](double time, std::span<const double> X) {
-      std::vector<double> places(X.begin(), X.end());
-      for (double& place : places) place -= left;
-      return at(time, places);
-    };
+  if (reference && scene.body.left() != 0.0) return placed(*reference, scene.body.left(), 1.0);
   return reference;
 }
 

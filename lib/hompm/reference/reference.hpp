@@ -1,6 +1,7 @@
 // The solution a run is judged by: closed form where there is one, else the method of lines.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -11,11 +12,21 @@
 
 namespace hompm {
 
-/// Exact or reference fields at given material points; one entry per point.
-struct ReferenceFields {
+/// Values at given material points, one per point.
+struct PointFields {
   std::vector<double> displacement;  ///< m
   std::vector<double> velocity;      ///< m/s
-  std::vector<double> stress;        ///< Pa
+  std::vector<double> stress;        ///< Pa, with that of viscosities
+  std::vector<double> stretch;       ///< λ
+};
+
+/// The members of `PointFields`.
+inline constexpr std::array<std::vector<double> PointFields::*, 4> point_fields{
+    &PointFields::displacement, &PointFields::velocity, &PointFields::stress, &PointFields::stretch};
+
+/// Exact or reference fields.
+struct ReferenceFields : PointFields {
+  PointFields error;  ///< |difference| to the solution with half the resolution; empty for a closed form
 };
 
 /// Relative L2 error of each field.
@@ -41,6 +52,9 @@ struct Reference {
   /// upper estimate. 0 for a closed form, and before the first call.
   std::function<ReferenceErrors()> estimated_error;
   bool steepens = false;  ///< its waves can become shocks: the law is not linear
+  /// Where at a time (s) a field or its slope may jump inside the body (m, ascending); an empty function
+  /// where that is not known.
+  std::function<std::vector<double>(double time)> breaks = {};
 };
 
 /// The reference solution of a scene, or nothing where none is known (local damping before rest, say).

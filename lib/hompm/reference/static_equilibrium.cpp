@@ -48,6 +48,7 @@ ReferenceFields static_equilibrium(const Scene& scene, double acceleration, doub
       fields.displacement.push_back(displacement);
       fields.velocity.push_back(0.0);
       fields.stress.push_back(stress(x));
+      fields.stretch.push_back(stretch(law, stress(x)));
     }
   };
   std::visit(integrate, make_material(scene.material));

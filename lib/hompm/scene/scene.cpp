@@ -35,6 +35,13 @@ double InitialField::slope_at(double place, double length) const {
   return amplitude * (numerics::pi * mode / length) * numerics::cos_pi(mode * place);
 }
 
+double InitialField::integral_to(double place, double length) const {
+  if (shape == "uniform") return amplitude * (place * length);
+  if (shape == "linear")
+    return (amplitude + 0.5 * gradient.value_or(0.0) * (place * length)) * (place * length);
+  return amplitude * length * (1.0 - numerics::cos_pi(mode * place)) / (numerics::pi * mode);
+}
+
 double Scene::displaced(double X) const {
   if (!initial_displacement) return X;
   return X + initial_displacement->at((X - body.left()) / body.length, body.length);

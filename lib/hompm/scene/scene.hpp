@@ -43,6 +43,8 @@ struct InitialField {
   [[nodiscard]] double at(double place, double length) const;
   /// ∂/∂X of that, 1/s or –.
   [[nodiscard]] double slope_at(double place, double length) const;
+  /// ∫ at dX from the left end to there, m²/s or m².
+  [[nodiscard]] double integral_to(double place, double length) const;
   /// The largest size of the slope.
   [[nodiscard]] double steepest(double length) const;
 };
@@ -110,6 +112,15 @@ struct OutputSpec {
   int history = 100;   ///< rows of history.csv after the start
 };
 
+/// One `[[probe]]` table: a point whose fields are written over time. Exactly one of X, x, end is said.
+struct ProbeSpec {
+  std::optional<double> X;                ///< m, a material point
+  std::optional<double> x;                ///< m, a place in space
+  std::string end;                        ///< left, right: an end of the body; "" with X or x
+  std::optional<std::int64_t> body = {};  ///< which, where X or end do not tell
+  std::optional<std::int64_t> rows = {};  ///< after the start, evenly spaced in time; else as the history
+};
+
 struct Scene {
   std::string case_name;  ///< "bar", "column", or the name of a scene of one's own
   std::string variant;    ///< "" where there is none
@@ -126,6 +137,7 @@ struct Scene {
   std::optional<Rest> rest;
   SchemeSpec scheme;
   OutputSpec output;
+  std::vector<ProbeSpec> probes;
 
   /// The scene of each body, where there are several: what they share is the same in all, each has the
   /// effects that act on it. Body, material, ends and the like of this scene are then those of the

@@ -52,6 +52,13 @@ struct HistoryRow {
   double internal_force_sum = 0.0;  ///< |Σ f_int| / Σ |f_int| over the grid functions
 };
 
+/// What is at a probe at one time.
+struct ProbeRow {
+  double time = 0.0;               ///< s
+  std::size_t probe = 0;           ///< number in the scene, from 0
+  std::array<double, 7> values{};  ///< by `probe_columns`
+};
+
 }  // namespace hompm
 
 namespace hompm::detail {
@@ -74,6 +81,11 @@ inline constexpr std::array<ParticleColumn, 8> all_columns{{{"X", &Snapshot::ref
 
 /// particles.csv after `time,particle`: X … density.
 inline constexpr auto particle_columns = std::span(all_columns).first<6>();
+
+/// probes.csv after `time,probe`.
+inline constexpr std::array<ParticleColumn, 7> probe_columns{{all_columns[0], all_columns[1], all_columns[2],
+                                                              all_columns[3], all_columns[5], all_columns[6],
+                                                              all_columns[7]}};
 
 /// stress.csv after `time,particle`.
 inline constexpr std::array<ParticleColumn, 4> stress_columns{

@@ -9,6 +9,7 @@
 #include <hompm/numerics/floating_point.hpp>
 #include <hompm/plan/invalid.hpp>
 #include <hompm/simulation/guards.hpp>
+#include <hompm/simulation/probes.hpp>
 #include <hompm/simulation/run.hpp>
 #include <hompm/simulation/warnings.hpp>
 
@@ -150,6 +151,7 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
   Simulation simulation(scene, stepping.time_step);
   detail::StepWatch step_watch(scene);
   const double scale = detail::energy_scale(scene, simulation.states());
+  const bool probed = observer.probe && !scene.probes.empty();
   RunResult result;
   result.start = result.end = simulation.history(0.0);
   if (from != nullptr) {
@@ -168,6 +170,9 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
           "cannot be started: " + bad + " is not finite at t = 0; its numbers are too large or too small");
     if (observer.history) observer.history(result.start);
     if (observer.snapshot) observer.snapshot(start);
+    if (probed)
+      detail::tell_probes(
+          scene, start, [](const ProbeSpec&) { return true; }, observer.probe);
   }
 
   result.warnings = warnings_before(scene, stepping);
@@ -191,19 +196,24 @@ RunResult run(const Scene& scene, const TimeStepping& stepping, const RunObserve
       constexpr std::int64_t between_looks = 128;
       if (row_due || step % between_looks == 0)
         result.largest_strain = std::max(result.largest_strain, largest_strain(simulation));
-      if (row_due || snapshot_due) {
+      const auto is_probed = [&](const ProbeSpec& probe) {
+        return last || is_due(step, stepping.steps, probe.rows.value_or(scene.output.history));
+      };
+      const bool probe_due = probed && std::ranges::any_of(scene.probes, is_probed);
+      if (row_due || snapshot_due || probe_due) {
         const double time = stepping.time(step, scene.end_time);
         result.end = simulation.history(time);
         guards.check(simulation, result.end);  // before anything is reported
         accumulate(result, result.end);
         result.least_dissipated = std::min(result.least_dissipated, detail::least_taken(simulation).energy);
         Snapshot snapshot;
-        if (snapshot_due) snapshot = simulation.snapshot(time);
+        if (snapshot_due || probe_due) snapshot = simulation.snapshot(time);
         if (const std::string bad = not_finite(snapshot, result.end); !bad.empty())
           throw InvalidRun(step, time, -1,
                            bad + " is not finite");  // LCOV_EXCL_LINE: densities that overflow
         if (row_due && observer.history) observer.history(result.end);
         if (snapshot_due && observer.snapshot) observer.snapshot(snapshot);
+        if (probe_due) detail::tell_probes(scene, snapshot, is_probed, observer.probe);
         if (last) result.final = std::move(snapshot);
       }
       if (observer.progress) observer.progress(step, stepping.steps);

@@ -46,6 +46,7 @@ struct RunObserver {
   std::function<void(const Snapshot&)> snapshot;
   std::function<void(const HistoryRow&)> history;
   std::function<void(std::int64_t step, std::int64_t steps)> progress;  ///< after every step
+  std::function<void(const ProbeRow&)> probe = {};                      ///< of each `[[probe]]`
   /// Before the first step: may add stages to the plan.
   std::function<void(Simulation&)> start = {};
   /// After every `checkpoint_every` steps (none when that is 0), the last step left out. All that was
@@ -59,10 +60,10 @@ struct RunObserver {
 };
 
 /// Runs a scene with the given stepping. The start is reported first, then `scene.output.snapshots` snapshots
-/// and `scene.output.history` rows evenly over the steps. Throws `SceneError` when scene and scheme do not go
-/// together or a value at the start is not finite, and `InvalidRun` when the run becomes invalid: what was
-/// reported before is valid. Throws `ArithmeticError` on a machine or build whose arithmetic is not IEEE 754
-/// (numerics/floating_point.hpp).
+/// and `scene.output.history` rows evenly over the steps, and those of the probes. Throws `SceneError` when
+/// scene and scheme do not go together or a value at the start is not finite, and `InvalidRun` when the run
+/// becomes invalid: what was reported before is valid. Throws `ArithmeticError` on a machine or build whose
+/// arithmetic is not IEEE 754 (numerics/floating_point.hpp).
 ///
 /// With `from`, a point of an earlier run of the same scene, the run goes on from there: what is reported and
 /// returned is the rest of that run, bit for bit.

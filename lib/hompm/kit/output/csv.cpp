@@ -39,6 +39,18 @@ void write_history_row(TextFile& file, const HistoryRow& row) {
   file << "\n";
 }
 
+std::string probe_header() {
+  std::string text = "time,probe";
+  for (const auto& column : probe_columns) text.append(",").append(column.name);
+  return text + "\n";
+}
+
+std::string probe_text(const ProbeRow& row) {
+  std::string text = to_text(row.time) + "," + std::to_string(row.probe);
+  for (const double value : row.values) text += "," + to_text(value);
+  return text + "\n";
+}
+
 namespace {
 
 /// One data array, a line per entry; `write_entry(i)` writes entry i.

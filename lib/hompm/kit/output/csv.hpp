@@ -24,6 +24,10 @@ void write_history_header(TextFile& file);
 /// One row. Throws `FileError`, and `Error` for a value that is not finite.
 void write_history_row(TextFile& file, const HistoryRow& row);
 
+/// The header of probes.csv, and a row of it. The latter throws `Error` for a value that is not finite.
+std::string probe_header();
+std::string probe_text(const ProbeRow& row);
+
 /// Path of snapshot `index` inside the run folder: "vtk/snapshot_0007.vtu".
 std::string vtu_name(std::size_t index);
 

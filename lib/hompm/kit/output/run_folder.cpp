@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 /// in which removing was cut short does not look complete.
 constexpr const char* own_names[] = {"run.json",      "timing.json",        "scene.toml",
                                      "particles.csv", "stress.csv",         "history.csv",
-                                     "run.pvd",       "invalid/reason.txt", "invalid/last_valid.csv"};
+                                     "run.pvd",       "invalid/reason.txt", "invalid/last_valid.csv",
+                                     "probes.csv",    "steps.csv"};
 
 void remove_file(const fs::path& path) {
   if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR)
@@ -86,6 +87,7 @@ class RunFolder::Contents {
   detail::TextFile particles = staging.create("particles.csv");
   detail::TextFile stress = staging.create("stress.csv");
   detail::TextFile history = staging.create("history.csv");
+  std::unique_ptr<detail::TextFile> probes;
   bool with_vtk;
   std::vector<double> vtk_times;
   bool whole = true;  // no write failed half-way
@@ -135,6 +137,18 @@ void RunFolder::write(const HistoryRow& row) {
   contents_->change([&] { write_history_row(contents_->history, row); });
 }
 
+void RunFolder::write_probes(std::string_view rows) {
+  if (rows.empty()) return;
+  contents_->change([&] {
+    auto& file = contents_->probes;
+    if (!file) {
+      file.reset(new detail::TextFile(contents_->staging.create("probes.csv")));
+      *file << detail::probe_header();
+    }
+    *file << rows;
+  });
+}
+
 void RunFolder::write(const std::string& name, const std::string& text) {
   contents_->change([&] {
     auto file = contents_->staging.create(name);
@@ -142,6 +156,8 @@ void RunFolder::write(const std::string& name, const std::string& text) {
     file.close();
   });
 }
+
+fs::path RunFolder::add(const std::string& name) { return contents_->staging.add(name); }
 
 std::string RunFolder::earlier_run() const {
   std::error_code ignored;
@@ -172,6 +188,7 @@ void RunFolder::keep_invalid(const Snapshot& last, const std::string& reason) {
   remove_earlier_run(staging.path());
   staging.move_into_place("invalid/last_valid.csv");
   staging.move_into_place("invalid/reason.txt");
+  if (staging.names().contains("steps.csv")) staging.move_into_place("steps.csv");
   remove_file(staging.path() / checkpoint_name);
 }
 
@@ -182,6 +199,7 @@ void RunFolder::publish(bool keep_checkpoint) {
     contents_->particles.close();
     contents_->stress.close();
     contents_->history.close();
+    if (contents_->probes) contents_->probes->close();
     if (contents_->with_vtk) {
       auto file = staging.create("run.pvd");
       write_pvd(file, contents_->vtk_times);

@@ -35,9 +35,15 @@ class RunFolder {
   void write(const Snapshot& snapshot);
   /// Appends to history.csv. Throws as above.
   void write(const HistoryRow& row);
+  /// Appends rows to probes.csv, which is there with the first. Throws `FileError`.
+  void write_probes(std::string_view rows);
   /// Writes a whole file, for scene.toml, run.json, timing.json; `name` has no folder in it. Throws
   /// `FileError`.
   void write(const std::string& name, const std::string& text);
+
+  /// Where somebody else writes the file `name` of this run, whole before `publish` or `keep_invalid`; the
+  /// latter leaves steps.csv.
+  [[nodiscard]] std::filesystem::path add(const std::string& name);
 
   /// A file that an earlier run left in the folder, run.json if there is one; "" where there is none. A
   /// checkpoint counts for nothing.

@@ -118,12 +118,14 @@ StagingFolder::~StagingFolder() {
   fs::remove_all(staging_, ignored);
 }
 
-TextFile StagingFolder::create(const std::string& name) {
+fs::path StagingFolder::add(const std::string& name) {
   const fs::path path = staging_ / name;
   create_folder(path.parent_path());
   names_.insert(name);
-  return TextFile(path, folder_ / name);
+  return path;
 }
+
+TextFile StagingFolder::create(const std::string& name) { return TextFile(add(name), folder_ / name); }
 
 void StagingFolder::move_into_place(const std::string& name) {
   const fs::path target = folder_ / name;
@@ -145,6 +147,21 @@ void StagingFolder::replace(const std::string& name, std::string_view content) {
     names_.erase(name);
     throw;
   }
+}
+
+void write_whole(const fs::path& path, std::string_view text) {
+  std::error_code none;
+  if (fs::exists(path, none) && !fs::is_regular_file(path, none)) {
+    TextFile file(path, path);
+    file << text;
+    return file.close();
+  }
+  constexpr bool waits = true;
+  StagingFolder staging(path.has_parent_path() ? path.parent_path() : ".", waits);
+  TextFile file = staging.create(path.filename());
+  file << text;
+  file.close();
+  staging.move_into_place(path.filename());
 }
 
 }  // namespace hompm::detail

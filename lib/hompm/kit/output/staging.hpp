@@ -59,6 +59,8 @@ class StagingFolder {
   /// A new file waiting under `name`, which is relative to the folder and may have one folder in front.
   /// Throws `FileError`.
   TextFile create(const std::string& name);
+  /// The same, for somebody else to create: the path at which it waits.
+  std::filesystem::path add(const std::string& name);
   /// Moves the (closed) file `name` to its place, over an older one. Throws `FileError`.
   void move_into_place(const std::string& name);
   /// Puts a file with this content in its place, all of it on the disk before it replaces an older one.
@@ -76,5 +78,9 @@ class StagingFolder {
   std::filesystem::path staging_;
   std::set<std::string> names_;
 };
+
+/// Writes a file so that it is there whole or not at all, creating its folder, and waits for whoever else
+/// writes there; into what is no regular file (a device, a pipe) as it is. Throws `FileError`.
+void write_whole(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace hompm::detail

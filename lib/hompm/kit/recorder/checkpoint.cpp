@@ -52,6 +52,7 @@ void write_records(ByteWriter& out, const Checkpoint& checkpoint) {
     out.number(row.time);
     for (const auto& column : detail::history_columns) out.number(row.*column.value);
   }
+  out.text(checkpoint.probes);
   out.word(checkpoint.snapshots.size());
   for (const Snapshot& snapshot : checkpoint.snapshots) {
     out.number(snapshot.time);
@@ -74,6 +75,7 @@ void read_records(ByteReader& in, Checkpoint& checkpoint) {
     row.time = in.number();
     for (const auto& column : detail::history_columns) row.*column.value = in.number();
   }
+  checkpoint.probes = in.text();
   checkpoint.snapshots.resize(in.count(16 + 8 * detail::all_columns.size() * bodies.size()));
   for (Snapshot& snapshot : checkpoint.snapshots) {
     snapshot.time = in.number();
@@ -137,7 +139,11 @@ Checkpoint read_content(std::string_view bytes, const std::string& source, const
 }  // namespace
 
 Checkpoint first_checkpoint(const Scene& scene) {
-  return {.scene = scene, .history = {}, .snapshots = {}, .point = {Simulation(scene, 0.0).states()}};
+  return {.scene = scene,
+          .history = {},
+          .snapshots = {},
+          .probes = {},
+          .point = {Simulation(scene, 0.0).states()}};
 }
 
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <hompm/effects/registry.hpp>
+#include <hompm/kit/output/csv.hpp>
 #include <hompm/kit/output/run_folder.hpp>
 #include <hompm/simulation/run.hpp>
 
@@ -20,7 +21,7 @@ class CheckpointError : public FileError {
 };
 
 /// Of the layout of the bytes in a checkpoint; only this one is read.
-inline constexpr std::uint64_t checkpoint_format = 4;
+inline constexpr std::uint64_t checkpoint_format = 5;
 
 /// Everything a run is and has reported so far.
 struct Checkpoint {
@@ -32,6 +33,7 @@ struct Checkpoint {
   double seconds = 0.0;         ///< on the wall clock so far
   std::vector<HistoryRow> history;
   std::vector<Snapshot> snapshots;
+  std::string probes;  ///< rows of probes.csv
   RunPoint point;
 };
 
@@ -65,6 +67,7 @@ class CheckpointWriter {
   CheckpointWriter(RunFolder& folder, Checkpoint checkpoint, std::function<void(const std::string&)> warn);
 
   void keep(const HistoryRow& row) { checkpoint_.history.push_back(row); }
+  void keep(const ProbeRow& row) { checkpoint_.probes += detail::probe_text(row); }
   void keep(const Snapshot& snapshot) { checkpoint_.snapshots.push_back(snapshot); }
   /// `seconds` on the wall clock so far.
   void write(const RunPoint& point, double seconds);

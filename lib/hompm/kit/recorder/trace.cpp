@@ -1,3 +1,4 @@
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <hompm/kit/recorder/trace.hpp>
 #include <hompm/kit/recorder/trace_file.hpp>
 #include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/number.hpp>
 
 namespace hompm {
 namespace {
@@ -38,6 +40,14 @@ class Trace::Recorder {
     states_ = simulation.states();
     step_ = states_.front().step;
     const BuildInfo& build = build_info();
+    for (const State& state : states_) {
+      first_field_.push_back(before_.size());
+      visit_fields(state, [&](const FieldInfo&, auto values) {
+        const auto bytes = std::as_bytes(values);
+        before_.emplace_back(bytes.begin(), bytes.end());
+      });
+    }
+    if (options_.table_steps > 0) return begin_table(stages);
     out_.bytes = detail::trace_magic;
     out_.word(detail::trace_format);
     out_.text("hompm " + build.version + " (" + build.commit + "), " + build.compiler + ", " +
@@ -52,13 +62,6 @@ class Trace::Recorder {
     for (const auto& [name, called_by] : stages) {
       out_.text(name);
       out_.text(called_by);
-    }
-    for (const State& state : states_) {
-      first_field_.push_back(before_.size());
-      visit_fields(state, [&](const FieldInfo&, auto values) {
-        const auto bytes = std::as_bytes(values);
-        before_.emplace_back(bytes.begin(), bytes.end());
-      });
     }
     out_.word(before_.size());
     for (std::size_t body = 0; body < states_.size(); ++body)
@@ -77,12 +80,12 @@ class Trace::Recorder {
   /// A step, or a part of one, begins; called more than once for each.
   void begin_part(std::size_t body, const State& state) {
     if (!is_run(body, state) || std::exchange(in_part_, true)) return;
-    if (state.step != step_) {
-      step_ = state.step;
-      out_.word<2>(detail::next_step);
-      choose_values();
-    } else {
-      out_.word<2>(detail::next_part);
+    const bool anew = state.step != step_;
+    step_ = state.step;
+    part_ = anew ? 1 : part_ + 1;
+    if (options_.table_steps == 0) {
+      out_.word<2>(anew ? detail::next_step : detail::next_part);
+      if (anew) choose_values();
     }
     for (std::size_t each = 0; each < states_.size(); ++each) record(0, each, states_[each]);
   }
@@ -94,20 +97,17 @@ class Trace::Recorder {
 
   /// What `stage` changed in a body.
   void record(std::uint16_t stage, std::size_t body, const State& state) {
-    if (!is_run(body, state)) return;
+    if (!is_run(body, state) || (options_.table_steps > 0 && step_ > options_.table_steps)) return;
     std::size_t field = first_field_[body];
-    visit_fields(state, [&](const FieldInfo&, auto values) {
+    visit_fields(state, [&](const FieldInfo& info, auto values) {
       const auto bytes = std::as_bytes(values);
       auto& before = before_[field];
       if (bytes.size() != before.size() || std::memcmp(bytes.data(), before.data(), bytes.size()) != 0) {
         before.assign(bytes.begin(), bytes.end());
-        out_.word<2>(stage);
-        out_.word<2>(field);
-        out_.word(hash_of(values));
-        if (with_values_) {
-          out_.word<2>(detail::entry_values);
-          write_values(values);
-        }
+        if (options_.table_steps > 0)
+          add_rows(stage, body, info, values);
+        else
+          add_entry(stage, field, values);
       }
       ++field;
     });
@@ -116,6 +116,10 @@ class Trace::Recorder {
 
   void close() {
     if (!file_ || std::exchange(closed_, true)) return;
+    if (options_.table_steps > 0) {
+      flush(out_.bytes.size());
+      return file_->close();
+    }
     const std::uint64_t size = written_ + out_.bytes.size();
     detail::Hash hash = hash_;
     detail::add_bytes(hash, out_.bytes);
@@ -129,6 +133,46 @@ class Trace::Recorder {
  private:
   /// Not a copy, on which an output is computed.
   [[nodiscard]] bool is_run(std::size_t body, const State& state) const { return &state == &states_[body]; }
+
+  template <class Values>
+  void add_entry(std::uint16_t stage, std::size_t field, const Values& values) {
+    out_.word<2>(stage);
+    out_.word<2>(field);
+    out_.word(hash_of(values));
+    if (!with_values_) return;
+    out_.word<2>(detail::entry_values);
+    write_values(values);
+  }
+
+  void begin_table(std::span<const StageName> stages) {
+    out_.bytes = "step,part,stage,body,field,index,value\n";
+    stages_.push_back("beginning");
+    for (const StageName& stage : stages) stages_.push_back(stage.name);
+    stages_.push_back("start");
+    for (std::size_t body = 0; body < states_.size(); ++body)
+      visit_fields(states_[body], [&](const FieldInfo& info, auto values) {
+        add_rows(stages_.size() - 1, body, info, values);
+      });
+  }
+
+  template <class Values>
+  void add_rows(std::size_t stage, std::size_t body, const FieldInfo& info, const Values& values) {
+    const std::string front = std::to_string(step_) + "," + std::to_string(part_) + "," + stages_[stage] +
+                              "," + std::to_string(body) + "," + std::string(info.name) + ",";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      out_.bytes.append(front).append(std::to_string(i)).append(",").append(text_of(values[i])).append("\n");
+    if (out_.bytes.size() >= chunk) flush(out_.bytes.size() / chunk * chunk);
+  }
+
+  template <class Value>
+  static std::string text_of(Value value) {
+    if constexpr (std::is_integral_v<Value>)
+      return std::to_string(value);
+    else if (std::isfinite(value))
+      return to_text(value);
+    else
+      return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+  }
 
   /// Of the step that begins.
   void choose_values() {
@@ -176,7 +220,9 @@ class Trace::Recorder {
   std::span<const State> states_;               ///< of the bodies
   std::vector<std::size_t> first_field_;        ///< of each body
   std::vector<std::vector<std::byte>> before_;  ///< of each field
+  std::vector<std::string> stages_;             ///< of a table
   std::int64_t step_ = 0;
+  int part_ = 0;
   bool in_part_ = false;
   bool with_values_ = false;
   bool closed_ = false;

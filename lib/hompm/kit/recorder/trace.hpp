@@ -17,6 +17,9 @@ namespace hompm {
 struct TraceOptions {
   std::int64_t values_from = 0;                       ///< first step of which all values are written, too
   std::size_t values_bytes = std::size_t{16} << 20U;  ///< no step begins to be written beyond that
+  /// If > 0, not a trace but a table is written: `step,part,stage,body,field,index,value`, all values of the
+  /// start, and of so many steps those of each field that a stage changed.
+  std::int64_t table_steps = 0;
 };
 
 /// Writes a trace: after each stage of the plan a hash of every field that the stage changed

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -147,14 +146,7 @@ bool same_shape(Pair& pair) {
 
 void note_origins(Pair& pair) {
   auto& notes = pair.found.notes;
-  std::istringstream a(pair.a.scene);
-  std::istringstream b(pair.b.scene);
-  std::string line_a;
-  std::string line_b;
-  while (line_a == line_b && (a || b)) {
-    if (!std::getline(a, line_a)) line_a = "nothing more";
-    if (!std::getline(b, line_b)) line_b = "nothing more";
-  }
+  const auto [line_a, line_b] = detail::first_different_lines(pair.a.scene, pair.b.scene);
   if (line_a != line_b) notes.push_back("the scenes differ: `" + line_a + "` in A, `" + line_b + "` in B");
   if (pair.a.build != pair.b.build) notes.push_back("A is by " + pair.a.build + "; B by " + pair.b.build);
   for (const TraceFile* file : {&pair.a, &pair.b})

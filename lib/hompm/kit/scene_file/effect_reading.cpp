@@ -28,16 +28,7 @@ std::set<std::string> check_parameter_names(Reading& reading, const EffectType& 
   std::vector<std::string> names{"type"};
   if (reading.bodies > 1) names.emplace_back("body");
   for (const EffectParameter& parameter : type.parameters) names.push_back(parameter.name);
-  std::set<std::string> meant;
-  for (const auto& [key, value] : reading.said.values) {
-    if (value.parent != path || std::find(names.begin(), names.end(), value.name) != names.end()) continue;
-    const std::string near = nearest(value.name, names);
-    meant.insert(near);
-    reading.report(value.key,
-                   "unknown key `" + printable(value.name) + "` of the effect " + type.name +
-                       (near.empty() ? "; it has " + listed(names) : "; did you mean `" + near + "`?"));
-  }
-  return meant;
+  return check_names_in(reading, path, names, "the effect " + type.name);
 }
 
 void read_parameters(Reading& reading, const EffectType& type, const std::string& path, EffectSpec& effect) {

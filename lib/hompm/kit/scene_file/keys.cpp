@@ -302,7 +302,7 @@ std::vector<std::string> names_in(const std::string& path) {
     const std::string name = rest.substr(0, rest.find('.'));
     if (names.empty() || names.back() != name) names.push_back(name);
   }
-  if (path.empty()) names.emplace_back("effect");
+  if (path.empty()) names.insert(names.end(), {"effect", "probe"});
   return names;
 }
 

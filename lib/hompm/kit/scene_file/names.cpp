@@ -98,23 +98,38 @@ bool check_table(Reading& reading, const std::string& path, const SaidValue& val
   return false;
 }
 
-void check_effect_list(Reading& reading, const SaidValue& value) {
+void check_list(Reading& reading, const std::string& name, const SaidValue& value) {
   if (std::holds_alternative<Array>(value.content)) return;
   const bool table = std::holds_alternative<TomlTable>(value.content);
-  reading.report(value.value, "effects are a list: write [[effect]], one for each, instead of " +
-                                  (table ? "[effect]" : shown(value.content)));
+  reading.report(value.value, name + "s are a list: write [[" + name + "]], one for each, instead of " +
+                                  (table ? '[' + name + ']' : shown(value.content)));
 }
 
 }  // namespace
+
+std::set<std::string> check_names_in(Reading& reading, const std::string& path,
+                                     const std::vector<std::string>& names, const std::string& what) {
+  std::set<std::string> meant;
+  for (const auto& [key, value] : reading.said.values) {
+    if (value.parent != path || std::ranges::find(names, value.name) != names.end()) continue;
+    const std::string near = nearest(value.name, names);
+    meant.insert(near);
+    reading.report(value.key,
+                   "unknown key `" + printable(value.name) + "` of " + what +
+                       (near.empty() ? "; it has " + listed(names) : "; did you mean `" + near + "`?"));
+  }
+  return meant;
+}
 
 void check_names(Reading& reading) {
   std::set<std::string> settled;  // what lies below these is not looked at here
   for (const auto& [path, value] : reading.said.values) {
     const bool from_file = value.key.source == reading.said.source;
-    if (settled.contains(value.parent) && (from_file || path.starts_with("effect["))) {
+    const bool in_list = path.starts_with("effect[") || path.starts_with("probe[");
+    if (settled.contains(value.parent) && (from_file || in_list)) {
       settled.insert(path);
-    } else if (path == "effect") {
-      check_effect_list(reading, value);
+    } else if (path == "effect" || path == "probe") {
+      check_list(reading, path, value);
       settled.insert(path);
     } else if (find_key(path) != nullptr) {
       settled.insert(path);

@@ -120,11 +120,32 @@ void keep_what_suits(Reading& reading, const SaidValue* owner, const SaidValue& 
   }
 }
 
+/// `--probe 0.5`, `--probe left`, `--probe x=0.5`: a [[probe]] behind those of the file.
+void add_probe(Reading& reading, const Override& said) {
+  auto& values = reading.said.values;
+  std::size_t index = 0;
+  while (values.contains(list_path("probe", index))) ++index;
+  const Origin origin = origin_of(said);
+  const bool in_space = said.value.starts_with("x=");
+  const Content place = parse_value(in_space ? said.value.substr(2) : said.value);
+  const std::string name = std::holds_alternative<std::string>(place) && !in_space ? "end"
+                           : in_space                                              ? "x"
+                                                                                   : "X";
+  const std::string path = list_path("probe", index);
+  values.try_emplace("probe", SaidValue{Array{}, "", "probe", origin, origin});
+  values[path] = {TomlTable{}, "probe", "probe", origin, origin};
+  values[join_path(path, name)] = {place, path, name, origin, origin};
+}
+
 }  // namespace
 
 void apply_overrides(Reading& reading, const std::vector<Override>& overrides) {
   std::map<std::string, SaidValue> said;
   for (const Override& wish : overrides) {
+    if (wish.key == "probe") {
+      add_probe(reading, wish);
+      continue;
+    }
     const auto path = resolved(reading, wish);
     if (!path) continue;
     const Origin origin = origin_of(wish);

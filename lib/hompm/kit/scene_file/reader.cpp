@@ -143,6 +143,7 @@ Scene scene_of(Said said, const std::vector<Override>& overrides, const EffectCa
     read_bodies(reading, bodies);
   else
     read_body(reading);
+  read_probes(reading);
   if (!reading.problems.empty()) {
     sort_by_position(reading.problems, reading.said.source);
     throw SceneError(std::move(reading.problems));

@@ -75,7 +75,7 @@ struct SceneKey {
   std::string meaning = {};
 };
 
-/// All keys outside `[[effect]]`.
+/// All keys outside `[[effect]]` and `[[probe]]`.
 const std::vector<SceneKey>& scene_keys();
 
 /// The parameters of an effect.

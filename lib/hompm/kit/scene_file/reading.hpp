@@ -50,11 +50,22 @@ bool concerns(const Reading& reading, const EffectSpec& effect);
 /// Reports keys and tables that no scene has, outside `[[effect]]`.
 void check_names(Reading& reading);
 
+/// Reports the names in the table at `path` of a list that are none of `names`, of `what`: "the effect
+/// gravity". Returns those that were meant, "" for each where none is near.
+std::set<std::string> check_names_in(Reading& reading, const std::string& path,
+                                     const std::vector<std::string>& names, const std::string& what);
+
 /// Fills the scene from the table of keys.
 void read_keys(Reading& reading);
 
 /// Fills `scene.effects` from the effect catalogue.
 void read_effects(Reading& reading);
+
+/// Fills `scene.probes`, once all bodies are read.
+void read_probes(Reading& reading);
+
+/// A probe as TOML.
+std::string probe_text(const ProbeSpec& probe);
 
 /// Reports effects that do not go with the rest of the scene, once that is complete.
 void check_effects(Reading& reading);

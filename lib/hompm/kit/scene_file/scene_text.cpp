@@ -68,6 +68,7 @@ std::string scene_text(const Scene& scene) {
   for (const Scene& body : scene.bodies) text += body_text(body);
   if (several)
     for (const EffectSpec& effect : scene.effects) text += effect_text(scene, effect);
+  for (const ProbeSpec& probe : scene.probes) text += detail::probe_text(probe);
   return text;
 }
 

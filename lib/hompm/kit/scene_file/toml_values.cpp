@@ -116,7 +116,7 @@ class Flattener {
     if (depth == deepest) return;
     if (const toml::table* table = node.as_table()) add_table(*table, path, depth + 1);
     if (const toml::array* array = node.as_array();
-        array != nullptr && (path == "effect" || path == "body")) {
+        array != nullptr && (path == "effect" || path == "body" || path == "probe")) {
       // A body holds what else stands at the top.
       const int below = path == "body" ? 0 : depth + 1;
       std::size_t index = 0;
@@ -161,7 +161,9 @@ std::string last_name(const std::string& path) {
   return dot == std::string::npos ? path : path.substr(dot + 1);
 }
 
-std::string effect_path(std::size_t index) { return "effect[" + std::to_string(index) + ']'; }
+std::string list_path(const std::string& list, std::size_t index) {
+  return list + '[' + std::to_string(index) + ']';
+}
 
 Said read_toml(const std::string& text, const std::string& source) {
   if (const auto position = overlong_name(text)) {

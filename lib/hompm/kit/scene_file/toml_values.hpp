@@ -37,8 +37,9 @@ std::string parent_path(const std::string& path);
 /// The last name of a path: "velocity" for "initial.velocity".
 std::string last_name(const std::string& path);
 
-/// Path of the `index`-th `[[effect]]`, counting from 0.
-std::string effect_path(std::size_t index);
+/// Path of the `index`-th table of a list, counting from 0: "effect[2]".
+std::string list_path(const std::string& list, std::size_t index);
+inline std::string effect_path(std::size_t index) { return list_path("effect", index); }
 
 /// Flattens `text`. Throws `SceneError` with one problem where it is not TOML.
 Said read_toml(const std::string& text, const std::string& source);

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <hompm/kit/output/staging.hpp>
 #include <hompm/kit/recorder/bytes.hpp>
 #include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/kit/study/measure.hpp>
@@ -125,8 +126,8 @@ void write_moments(const std::filesystem::path& folder, const Measured& measured
   out.number(measured.stepping.time_step);
   out.word(measured.moments.size());
   for (const State& moment : measured.moments) detail::write_state(out, moment);
-  write_whole(folder / "moments", out.bytes);
-  write_whole(folder / "scene.toml", measured.record.scene);
+  detail::write_whole(folder / "moments", out.bytes);
+  detail::write_whole(folder / "scene.toml", measured.record.scene);
 }
 
 std::int64_t step_from_moments(const std::filesystem::path& folder) {

@@ -143,16 +143,6 @@ std::filesystem::path times_path(const std::filesystem::path& folder, const std:
   return folder / "times" / (name + ".json");
 }
 
-void write_whole(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  constexpr bool waits = true;  // for another worker's record
-  detail::StagingFolder staging(folder, waits);
-  detail::TextFile file = staging.create(path.filename());
-  file << text;
-  file.close();
-  staging.move_into_place(path.filename());
-}
-
 std::optional<std::string> text_of(const std::filesystem::path& path) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) return std::nullopt;

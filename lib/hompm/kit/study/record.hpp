@@ -77,8 +77,6 @@ Times read_times(const std::string& text);
 std::filesystem::path record_path(const std::filesystem::path& folder, const std::string& name);
 std::filesystem::path times_path(const std::filesystem::path& folder, const std::string& name);
 
-/// Writes a file so that it is there whole or not at all, creating its folder. Throws `FileError`.
-void write_whole(const std::filesystem::path& path, const std::string& text);
 /// The text of a file, or nothing where there is no such file.
 std::optional<std::string> text_of(const std::filesystem::path& path);
 

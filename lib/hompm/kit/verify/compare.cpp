@@ -118,7 +118,7 @@ const std::vector<std::string>& compared_fields() {
 }
 
 Comparison compare_folders(const fs::path& a, const fs::path& b,
-                           const std::map<std::string, Tolerance>& tolerances) {
+                           const std::map<std::string, Tolerance>& tolerances, bool more_times) {
   const auto& known = compared_fields();
   for (const auto& [field, tolerance] : tolerances) {
     if (std::find(known.begin(), known.end(), field) == known.end())
@@ -151,7 +151,7 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
     detail::Table table_b(file_b, layout, faults, notes);
     if (!table_a.has_keys() || !table_b.has_keys()) continue;
     detail::FieldJudge judge(table.name, table.fields, tolerances_of(table, tolerances));
-    compare_tables(table_a, table_b, table.fields.size(), judge);
+    compare_tables(table_a, table_b, table.fields.size(), judge, more_times);
     result.fields.insert(result.fields.end(), judge.fields().begin(), judge.fields().end());
     if (!first) first = judge.first();
     if (!result.first) result.first = judge.first_beyond();
@@ -171,6 +171,18 @@ Comparison compare_folders(const fs::path& a, const fs::path& b,
   else if (any(&FieldComparison::differing))
     result.verdict = Verdict::equivalent;
   return result;
+}
+
+std::pair<std::string, std::string> detail::first_different_lines(const std::string& a,
+                                                                  const std::string& b) {
+  std::istringstream in_a(a);
+  std::istringstream in_b(b);
+  std::pair<std::string, std::string> lines;
+  while (lines.first == lines.second && (in_a || in_b)) {
+    if (!std::getline(in_a, lines.first)) lines.first = "nothing more";
+    if (!std::getline(in_b, lines.second)) lines.second = "nothing more";
+  }
+  return lines;
 }
 
 void compare_scenes(const fs::path& a, const fs::path& b, Comparison& comparison) {

@@ -7,9 +7,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hompm::detail {
+
+/// The first line in which two texts differ, of each; "nothing more" where one has ended.
+std::pair<std::string, std::string> first_different_lines(const std::string& a, const std::string& b);
 
 /// The next double up is the next integer up; −0 comes right before +0.
 inline std::uint64_t ordered_bits(double value) {
@@ -83,10 +87,11 @@ const std::vector<std::string>& compared_fields();
 /// Compares particles.csv, stress.csv and history.csv of two folders (`b` is the golden one), columns matched
 /// by name and rows by time and particle, both in order. A file only one folder has is a difference.
 /// `tolerances` goes by field and holds in every file that has the field. Files are read row by row, so their
-/// size does not matter. Throws `FileError` when a folder or file cannot be read or one of the folders holds
-/// no results, `Error` for a tolerance of an unknown field.
+/// size does not matter. With `more_times`, `a` may hold times between those of `b`. Throws `FileError` when
+/// a folder or file cannot be read or one of the folders holds no results, `Error` for a tolerance of an
+/// unknown field.
 Comparison compare_folders(const std::filesystem::path& a, const std::filesystem::path& b,
-                           const std::map<std::string, Tolerance>& tolerances);
+                           const std::map<std::string, Tolerance>& tolerances, bool more_times = false);
 
 /// Adds to `comparison` whether scene.toml is the same text, line ends aside, where both folders have one: a
 /// difference is a message and makes the verdict `different`. Throws `FileError`.
