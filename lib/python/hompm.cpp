@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -169,66 +170,38 @@ py::dict run_scene(const std::string& case_name, const std::string& variant, con
                   "history"_a = history, "report"_a = from_json(report), "scene"_a = scene_text(scene));
 }
 
-/// The reference solution of a scene; times may come in any order, a smaller one starts it anew.
-class Exact {
- public:
-  explicit Exact(Scene scene) : scene_(std::make_unique<Scene>(std::move(scene))) { begin(); }
-
-  py::dict at(const py::array_t<double, py::array::c_style | py::array::forcecast>& X, double time) {
-    if (!(time >= 0.0 && time <= scene_->end_time))
-      throw py::value_error("t must be from 0 to the end time of the scene, " +
-                            py::repr(py::float_(scene_->end_time)).cast<std::string>() + " s, not " +
-                            py::repr(py::float_(time)).cast<std::string>());
-    std::vector<std::size_t> order(static_cast<std::size_t>(X.size()));
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    const double* const points = X.data();
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return points[i]; });
-    std::vector<double> sorted;
-    for (const std::size_t i : order) {
-      if (!(points[i] >= scene_->body.left() && points[i] <= scene_->body.right()))
-        throw py::value_error("X must be in the body, from " +
-                              py::repr(py::float_(scene_->body.left())).cast<std::string>() + " to " +
-                              py::repr(py::float_(scene_->body.right())).cast<std::string>() + " m, not " +
-                              py::repr(py::float_(points[i])).cast<std::string>());
-      sorted.push_back(points[i]);
-    }
-    ReferenceFields fields;
-    {
-      const py::gil_scoped_release free;
-      if (time < last_) begin();
-      last_ = time;
-      fields = reference_->at(time, sorted);
-    }
-    py::dict result;
-    const std::vector<py::ssize_t> shape(X.shape(), X.shape() + X.ndim());
-    for (const auto& [name, values] : {std::pair{"displacement", &fields.displacement},
-                                       {"velocity", &fields.velocity},
-                                       {"stress", &fields.stress}}) {
-      std::vector<double> asked(order.size());
-      for (std::size_t i = 0; i < order.size(); ++i) asked[order[i]] = (*values)[i];
-      result[name] = array_of(std::move(asked), shape.empty() ? std::vector<py::ssize_t>{1} : shape);
-    }
-    return result;
+/// The exact or reference solution at X (m) and t (s), numbers or arrays that numpy broadcasts.
+py::dict exact_at(const Scene& scene, const py::object& X, const py::object& t) {
+  using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  const py::tuple both =
+      py::module_::import("numpy").attr("broadcast_arrays")(Array::ensure(X), Array::ensure(t));
+  const auto places = both[0].cast<Array>();
+  const auto times = both[1].cast<Array>();
+  std::vector<MaterialPoint> points;
+  for (py::ssize_t i = 0; i < places.size(); ++i) {
+    points.push_back({times.data()[i], places.data()[i]});
+    if (const std::string why = outside(scene, points.back()); !why.empty()) throw py::value_error(why);
   }
-  [[nodiscard]] std::string description() const { return reference_->description; }
-  [[nodiscard]] py::dict own_error() const {
-    using namespace pybind11::literals;
-    const ReferenceErrors errors = reference_->estimated_error();
-    return py::dict("displacement"_a = errors.displacement, "velocity"_a = errors.velocity,
-                    "stress"_a = errors.stress);
+  ExactSolution exact;
+  {
+    const py::gil_scoped_release free;
+    exact = exact_solution(scene, points);
   }
-
- private:
-  void begin() {
-    reference_ = make_reference(*scene_);
-    last_ = 0.0;
-    if (!reference_)
-      throw SceneError(Origin{scene_->case_name}, "no exact or reference solution of this scene is known");
-  }
-  std::unique_ptr<Scene> scene_;
-  std::optional<Reference> reference_;
-  double last_ = 0.0;
-};
+  const std::vector<py::ssize_t> shape(places.shape(), places.shape() + places.ndim());
+  const auto fields = [&](auto& from) {
+    py::dict all;
+    for (const auto& [name, values] : {std::pair{"displacement", &from.displacement},
+                                       {"velocity", &from.velocity},
+                                       {"stress", &from.stress},
+                                       {"stretch", &from.stretch}})
+      if (!values->empty() || points.empty()) all[name] = array_of(std::move(*values), shape);
+    return all;
+  };
+  py::dict result = fields(exact.fields);
+  result["reference"] = exact.reference;
+  result["error"] = fields(exact.fields.error);
+  return result;
+}
 
 /// A simulation and its first time step.
 struct Stepper {
@@ -292,17 +265,13 @@ case, variant: a built-in one; or scene: a dict, or the path of a file. set: fur
 Keywords: scheme, degree, cells, particles_per_cell, time_step, courant, step_fraction, end_time, snapshots.
 Returns a dict: times (s); fields, by name an array of times × particles (X, x, displacement, velocity, ...);
 history, by column an array; report, which is run.json; scene, the scene as run.)");
-  py::class_<Exact>(
-      module, "exact",
-      "The exact or reference solution of a scene, named as for run; call it with X (m) and t (s).")
-      .def(py::init([](const std::string& c, const std::string& v, const py::object& s, const py::dict& set,
-                       const py::kwargs& others) { return Exact(scene_of(c, v, s, set, others)); }),
-           "case"_a = "", "variant"_a = "", "scene"_a = py::none(), "set"_a = py::dict())
-      .def("__call__", &Exact::at, "X"_a, "t"_a,
-           "displacement (m), velocity (m/s) and stress (Pa) at X (m, an array) and t (s), as arrays.")
-      .def_property_readonly("description", &Exact::description, "Which solution this is.")
-      .def_property_readonly("own_error", &Exact::own_error,
-                             "Its own relative error at the last call, by field.");
+  py::class_<Scene>(module, "exact", "The exact or reference solution of a scene, named as for run.")
+      .def(py::init(&scene_of), "case"_a = "", "variant"_a = "", "scene"_a = py::none(), "set"_a = py::dict())
+      .def("__call__", &exact_at, "X"_a, "t"_a,
+           R"(At X (m) and t (s), numbers or arrays that broadcast, in any order.
+
+Returns a dict: displacement (m), velocity (m/s), stress (Pa), stretch, arrays of the shape of X and t; reference, which solution it is;
+error, its own at these points by field, empty for a closed form.)");
   py::class_<Stepper>(module, "Simulation", "A scene, named as for run, step by step.")
       .def(py::init([](const std::string& c, const std::string& v, const py::object& s, const py::dict& set,
                        const py::kwargs& others) { return Stepper(scene_of(c, v, s, set, others)); }),

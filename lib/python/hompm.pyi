@@ -26,9 +26,7 @@ def run(case: str = "", variant: str = "", scene: dict[str, Any] | str | None = 
 class exact:
     def __init__(self, case: str = "", variant: str = "", scene: dict[str, Any] | str | None = None,
                  set: dict[str, Any] = {}, **keys: _Value) -> None: ...
-    def __call__(self, X: npt.ArrayLike, t: float) -> dict[str, _Array]: ...
-    description: str
-    own_error: dict[str, float]
+    def __call__(self, X: npt.ArrayLike, t: npt.ArrayLike) -> dict[str, Any]: ...
 
 class Simulation:
     def __init__(self, case: str = "", variant: str = "", scene: dict[str, Any] | str | None = None,

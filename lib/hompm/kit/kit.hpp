@@ -11,4 +11,5 @@
 #include <hompm/kit/study/answers.hpp>
 #include <hompm/kit/study/study.hpp>
 #include <hompm/kit/verify/compare.hpp>
+#include <hompm/kit/verify/exact.hpp>
 #include <hompm/kit/verify/judge.hpp>
