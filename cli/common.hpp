@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -60,6 +61,11 @@ struct CommandLine {
   /// The values of one that may be given more than once.
   [[nodiscard]] std::vector<std::string> texts(const std::string& option) const {
     return has(option) ? options[option].as<std::vector<std::string>>() : std::vector<std::string>();
+  }
+  /// Throws `UsageError`, "<reason> --<option>", where one of the options was given.
+  void refuse(std::initializer_list<const char*> others, const std::string& reason) const {
+    for (const char* const other : others)
+      if (has(other)) throw UsageError(reason + " --" + other);
   }
 };
 

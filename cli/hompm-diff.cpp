@@ -80,10 +80,9 @@ void print(const CommandLine& given, const Found& found) {
 /// Which variant of the scheme A agrees with.
 void tell_variants(const CommandLine& given, const std::filesystem::path& table, const std::string& a,
                    const std::string& b, const ForeignOptions& options) {
-  for (const char* option : {"absolute", "relative", "ulps", "exact", "time", "time-tolerance", "fields",
-                             "interpolate", "submit", "picture"})
-    if (given.has(option))
-      throw UsageError("--which tells digits at all times of A: it takes no --" + std::string(option));
+  given.refuse({"absolute", "relative", "ulps", "exact", "time", "time-tolerance", "fields", "interpolate",
+                "submit", "picture"},
+               "--which tells digits at all times of A: it takes no");
   SchemeVariants variants;
   {
     ProgressBar bar(given.has("quiet"), "variants");
@@ -171,9 +170,8 @@ void print_trace(const std::string& path) {
 Verdict compare(const CommandLine& given) {
   const auto& names = given.arguments;
   if (given.has("trace") && names.size() == 1) {
-    for (const char* other : {"absolute", "relative", "ulps", "json", "quiet"})
-      if (given.has(other))
-        throw UsageError("--trace of one file prints it: it takes no --" + std::string(other));
+    given.refuse({"absolute", "relative", "ulps", "json", "quiet"},
+                 "--trace of one file prints it: it takes no");
     refuse_foreign_options(given);
     print_trace(names[0]);
     return Verdict::identical;
@@ -187,8 +185,7 @@ Verdict compare(const CommandLine& given) {
   };
   if (!given.has("trace") && !is_folder(names[0])) return compare_file(given, names[0], names[1]);
   if (given.has("trace"))
-    for (const char* bound : {"absolute", "relative", "ulps"})
-      if (given.has(bound)) throw UsageError("--trace compares bits: it takes no --" + std::string(bound));
+    given.refuse({"absolute", "relative", "ulps"}, "--trace compares bits: it takes no");
   refuse_foreign_options(given);
   if (given.has("trace")) {
     const TraceComparison found = compare_traces(names[0], names[1]);

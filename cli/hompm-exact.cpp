@@ -48,8 +48,8 @@ Tool this_tool() {
                         "in the place of the fields: where they, or their slopes, jump inside the "
                         "body at these times, with both sides"}}}},
           .remarks =
-              "Exit codes: 0 fine, 2 bad usage, scene or point, or no solution is known, 5 cannot\n"
-              "read or write, 6 this build or process does not compute as IEEE 754 says.\n"};
+              "Exit codes: 0 fine, 2 bad usage, scene or point, or no solution is known, 5\n"
+              "cannot read or write, 6 this build or process does not compute as IEEE 754 says.\n"};
 }
 
 [[noreturn]] void refuse_range(const std::string& where, const std::string& reason) {
@@ -112,8 +112,7 @@ std::vector<MaterialPoint> read_points(const Scene& scene, const std::string& fi
 
 std::vector<MaterialPoint> points_of(const Scene& scene, const CommandLine& given) {
   if (given.has("points")) {
-    for (const char* other : {"at", "times"})
-      if (given.has(other)) throw UsageError(std::string("--points and --") + other + " exclude each other");
+    given.refuse({"at", "times"}, "--points takes no");
     return read_points(scene, given.text("points"));
   }
   const std::string at = given.text("at");

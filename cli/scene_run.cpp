@@ -185,9 +185,7 @@ Checkpoint starting_point(const Scene& scene, const CommandLine& given, std::opt
 std::unique_ptr<Trace> asked_trace(const CommandLine& given, RunFolder& folder) {
   TraceOptions options;
   if (given.has("dump-steps")) {
-    for (const char* other : {"trace", "resume"})
-      if (given.has(other))
-        throw UsageError("--dump-steps and --" + std::string(other) + " exclude each other");
+    given.refuse({"trace", "resume"}, "--dump-steps takes no");
     options.table_steps = parse_steps(given.text("dump-steps"), "--dump-steps", 1);
     return std::make_unique<Trace>(folder.add("steps.csv"), options);
   }

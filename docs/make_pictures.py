@@ -49,7 +49,7 @@ def drawn_by_tool(name):
 COMMANDS = {
     "column": "hompm-run --case column --picture FILE",
     "column-xt": "hompm-run --case column --scheme high-order --end-time 0.8 --picture-xt FILE",
-    "comparing": f"hompm-diff --quiet --time 1.25 --picture FILE {make_tables.ROOT}/golden/bar-small-classical/stress.csv {make_tables.ROOT}/golden/bar-small-bspline",
+    "comparing": "hompm-diff --quiet --time 1.25 --picture FILE golden/bar-small-classical/stress.csv golden/bar-small-bspline",
 }
 
 
@@ -63,21 +63,22 @@ def bar_large(tools, terminal):
         for scheme, slope, dash in (("tielen2017", 2, 2), ("high-order", 4 if field == "displacement" else 3, 3)):
             beside = 0.4 * make_tables.error_of(reports[scheme][2], field)
             curves.append(curve(f"order {slope}", stroke("#606060", 1.2, dash if slope != 4 else 4), [(x, beside * (64 / x) ** slope) for x in (64, 256)]))
-        panels.append(panel(field, "cells", "relative L2 error", curves, "set logscale x 2\nset xrange [13:310]\nset yrange [1e-10:1]\nset xtics (16, 32, 64, 128, 256)\n", True))
+        panels.append(panel(field, "cells", "relative L2 error", curves, "set logscale x 2\nset xrange [13:310]\nset yrange [1e-12:1]\nset xtics (16, 32, 64, 128, 256)\n", True))
     return page("Large bar, t = 4 s, 4 particles per cell; high-order with p = 3", panels, 2, 415, 290, terminal)
 
 
 def column_settled(tools, terminal):
     """Particle stresses over the height of the settled column, and the closed form."""
-    panels = []
+    panels, moving = [], []
+    particles = curve("particles", stroke(size=0.5), [])
     for scheme in FOUR:
         report, folder = tools.report("--case", "column", "--variant", "settled", "--scheme", scheme)
         rows = [(row["stress"] / 1000, row["X"]) for row in read(folder / "stress.csv", time=report["end_time"])]
-        title = f"{scheme}, " + (f"at rest at t = {report['end_time']:.3g} s" if report["at_rest"] else f"not at rest, t = {report['end_time']:g} s")
+        moving += [] if report["at_rest"] else [scheme]
         # σ = −ρ0 g (H − X) is a straight line
-        panels.append(panel(title, "σ, kPa", "X, m", [curve("particles of " + scheme, look_of(tools, scheme, 0, 0.3), rows), curve("exact", stroke("#000000", 0.8), [(-9.81, 0), (0, 1)])],
+        panels.append(panel(f"{scheme}, t = {report['end_time']:.3g} s", "σ, kPa", "X, m", [particles, curve("", look_of(tools, scheme, 0, 0.3), rows), curve("exact", stroke("#000000", 0.8), [(-9.81, 0), (0, 1)])],
                             "set xrange [-12:2]\nset yrange [0:1]\nset xtics -10,5,0\n"))
-    return page("Settled column, 32 cells of 4 particles", panels, 4, 207, 290, terminal)
+    return page(f"Settled column, 32 cells of 4 particles; not at rest: {', '.join(moving) or 'none'}", panels, 4, 207, 290, terminal)
 
 
 def cut_span(_tools, terminal):
@@ -202,7 +203,7 @@ def crossing(_tools, terminal):
 def steps_of_mpm(_tools, terminal):
     """Four phases of a step."""
     nodes, before, after = [0.0, 1.0, 2.0, 3.0], [0.3, 0.8, 1.25, 1.7, 2.2, 2.7], [0.42, 0.95, 1.45, 1.92, 2.4, 2.85]
-    moved = [0.0, 1.15, 2.18, 3.2]
+    moved = [0.0, 1.25, 2.3, 3.25]
     def arrows(pairs):
         return "".join(f"set arrow from {a[0]},{a[1]} to {b[0]},{b[1]} head size 0.08,20 filled linewidth 0.8 linecolor rgb '#606060'\n" for a, b in pairs)
     def near(x):
@@ -272,6 +273,7 @@ def main():
     stale = []
     with tempfile.TemporaryDirectory() as work:
         tools = make_tables.Tools(arguments.tool.resolve(), work)
+        (tools.work / "golden").symlink_to(make_tables.ROOT / "golden")
         if arguments.tables:
             stale += make_tables.renew_all(tools, arguments.check, make_tables.SLOW_PARTS)
         for name in arguments.only or DRAWN:

@@ -399,7 +399,7 @@ ROOMS = {
     "reference": "exact and reference solutions",
     "scene_file": "scene files and the built-in cases: reading, checking, writing",
     "verify": "error norms, comparison of result folders, and of another code's results with one",
-    "output": "CSV, VTU, run.json, the summary; files appear whole or not at all",
+    "output": "CSV, VTU, run.json, the summary, pictures as scripts for gnuplot; files appear whole or not at all",
     "recorder": "checkpoints and traces: the state of a run as bytes",
     "study": "error against cost: points, records, Pareto front, answers, diagram",
 }
@@ -545,7 +545,7 @@ PARTS = {
     "scheme-conflicts": source("lib/hompm/kit/scene_file/complete.cpp", "cpp", "  const bool domains =", "              \"must be at least 3 with a basis of hat functions over domains\");"),
     "scheme-stage": source("lib/hompm/scheme/join_degree.hpp", "cpp", "  if (choices.basis == Basis::splines)", "        [basis = choices.basis, right_end](State& state) { evaluate_domains(state, basis, right_end); });"),
     "scheme-formula": source("lib/hompm/scheme/particle_domains.hpp", "cpp", "/// Values and gradients of the hat functions over a domain", "}"),
-    "scheme-row": source("lib/hompm/scheme/scheme_table.cpp", "cpp", "      {.name = \"ugimp\"", "       .choices = {.basis = Basis::contiguous_domains}},"),
+    "scheme-row": source("lib/hompm/scheme/scheme_table.cpp", "cpp", "      {.name = \"ugimp\"", "       .look = {\"#56B4E9\", 1, 15}},"),
     "scheme-test": source("tests/unit/family_test.cpp", "cpp", "TEST_CASE(\"a constant stress over domains", "}"),
     "law-type": source("lib/hompm/materials/material.hpp", "cpp", "/// σ = E (λ − 1 − ε_p), of small strain", "};"),
     "law-place": source("lib/hompm/materials/material.hpp", "cpp", "using Material = ", "using Material = std::variant<Linear, Rate, Hencky, NeoHookean, Elastoplastic>;"),

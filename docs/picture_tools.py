@@ -84,10 +84,10 @@ def page(title, panels, columns=3, panel_width=276, panel_height=240, terminal="
         script += text(x + 24, y, one["title"], "left")
     for number, part in enumerate(panels):
         left, top = number % columns * panel_width, head + number // columns * panel_height
-        right, bottom = left + panel_width - 10, top + panel_height
+        right, bottom = left + panel_width - 18, top + panel_height
         middle = (left + 52 + right) / 2
         above = 19 if part["title"] else 6
-        script += "\nset autoscale\nunset logscale\nset format '%g'\nset xtics autofreq\nset ytics autofreq\n"
+        script += "\nset xrange [*:*] noreverse\nset yrange [*:*]\nunset logscale\nset format '%g'\nset xtics autofreq\nset ytics autofreq\n"
         script += text(left + 2, top + 8, f"({chr(97 + number)})", "left") if len(panels) > 1 else ""
         script += text(middle, top + 8, part["title"], "center") + text(middle, bottom - 9, part["x"], "center")
         script += text(left + 7, (top + above + bottom - 42) / 2, part["y"], "center rotate by 90")

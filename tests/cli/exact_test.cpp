@@ -123,7 +123,7 @@ TEST_CASE("hompm-exact refuses what makes no sense in one line") {
       {"--case column --points far.csv", "far.csv:3:1: X = 1.5 m is not in the body"},
       {"--case column --points bad.csv", "bad.csv line 2"},
       {"--case column --points empty.csv", "empty.csv: it has no points"},
-      {"--case column --points far.csv --at 0", "--points and --at exclude each other"},
+      {"--case column --points far.csv --at 0", "--points takes no --at"},
       {"--case column --times 2 --set effect.gravity.acceleration=-90", "no exact solution at t = 2 s"},
       {"--case column --tims 2", "did you mean --times?"},
       {"--case colum", "column"},

@@ -67,7 +67,7 @@ TEST_CASE("a picture without exact solution says why", "[picture]") {
   const Runs runs;
   runs.add("out");
   REQUIRE(runs(" --picture a.svg --errors none out").exit_code == 0);
-  check_contains(runs.text("a.svg"), {">--errors none was given<"});
+  check_contains(runs.text("a.svg"), {">--errors none was<"});
   CHECK_FALSE(contains(runs.text("a.svg"), ">exact<"));
   REQUIRE(runs(" --scene " HOMPM_SOURCE_DIR "/docs/scenes/contact.toml --quiet --picture b.svg").exit_code ==
           0);

@@ -66,7 +66,8 @@ TEST_CASE("hompm-run --dump-steps writes every value of the first steps, which c
       out);
   CHECK(invalid.exit_code == 4);
   CHECK(fs::exists(scratch / "out/steps.csv"));
-  CHECK_THAT(run_command(tool + quick + " --dump-steps 1 --trace t").err, contains("exclude each other"));
+  CHECK_THAT(run_command(tool + quick + " --dump-steps 1 --trace t").err,
+             contains("--dump-steps takes no --trace"));
   CHECK(run_command(tool + quick + " --dump-steps 0" + out).exit_code == 2);
 }
 

@@ -23,7 +23,7 @@ using nlohmann::json;
 namespace {
 
 const std::string bin = HOMPM_BIN_DIR "/";
-const std::vector<std::string> tools{"hompm-run", "hompm-diff", "hompm-study"};
+const std::vector<std::string> tools{"hompm-run", "hompm-diff", "hompm-study", "hompm-exact"};
 
 std::string printed(const std::string& command) {
   const auto done = run_command(bin + command);

@@ -147,8 +147,8 @@ TEST_CASE("a damaged, truncated or foreign checkpoint is refused with its reason
   }
   SECTION("of another format, version, commit or plan") {
     std::string other = good;
-    other[16] = 5;
-    CHECK(contains(reason(other), "it has the format 5, and this hompm reads 4"));
+    other[16] = 6;
+    CHECK(contains(reason(other), "it has the format 6, and this hompm reads 5"));
     const auto& build = hompm::build_info();
     const std::string commit = with_new_hash(
         replaced(good, "(" + build.commit + ")", "(" + std::string(build.commit.size(), '0') + ")"));

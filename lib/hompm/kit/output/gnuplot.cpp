@@ -112,9 +112,31 @@ Prefix prefix_of(double largest, const std::string& unit) {
   return prefix;
 }
 
-double largest_of(const std::vector<double>& values, double so_far = 0.0) {
-  for (const double value : values) so_far = std::max(so_far, std::abs(value));
-  return so_far;
+/// What values lie between.
+struct Extent {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+
+  void add(double value) {  // passes over NaN
+    if (value < least) least = value;
+    if (value > most) most = value;
+  }
+  void add(const std::vector<double>& values) {
+    for (const double value : values) add(value);
+  }
+  [[nodiscard]] Prefix prefix(const std::string& unit) const {
+    return prefix_of(std::max(most, -least), unit);
+  }
+};
+
+/// Marks along the X axis, few enough for their numbers to stand beside each other.
+std::string marks(const Extent& x, double over) {
+  const double length = (x.most - x.least) / over;
+  if (!(length > 0.0) || !std::isfinite(length)) return "set xtics autofreq\n";
+  const double power = decades(length, length).from;
+  double step = 2.0 * power;
+  for (const double part : {1.0, 0.5, 0.2})
+    if (length <= 5.0 * part * power) step = part * power;
+  return "set xtics " + digits(step) + "\n";
 }
 
 std::string labelled(const Axis& axis, const Prefix& prefix) {
@@ -135,21 +157,16 @@ std::string drawn(const Image& image, const Prefix& x, const Prefix& y, double o
          place("$2", image.y, image.dy, y.over) + ":3 with image notitle";
 }
 
-std::string palette(const std::vector<Image>& images, double over) {
-  double least = 0.0;
-  double most = 0.0;
-  for (const Image& image : images) {
-    least = std::min(least, std::ranges::min(image.values) / over);
-    most = std::max(most, std::ranges::max(image.values) / over);
-  }
+/// Colours around zero where both signs matter.
+std::string palette(const Extent& z, double over) {
+  const double least = std::min(z.least, 0.0) / over;
+  const double most = std::max(z.most, 0.0) / over;
   const double bound = std::max(most, -least);
-  if (std::min(most, -least) < 0.1 * bound)
-    return "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\nset "
-           "cbrange [" +
-           digits(least) + ":" + digits(most) + "]\n";
-  return "set palette defined (0 '#053061', 1 '#4393C3', 2 '#F7F7F7', 3 '#D6604D', 4 '#67001F')\nset cbrange "
-         "[" +
-         digits(-bound) + ":" + digits(bound) + "]\n";
+  const bool both = std::min(most, -least) >= 0.1 * bound;
+  return "set palette defined (" +
+         std::string(both ? "0 '#053061', 1 '#4393C3', 2 '#F7F7F7', 3 '#D6604D', 4 '#67001F'"
+                          : "0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725'") +
+         ")\nset cbrange [" + digits(both ? -bound : least) + ":" + digits(both ? bound : most) + "]\n";
 }
 
 /// One panel with its number among all, whose left top corner is given.
@@ -158,25 +175,24 @@ std::string drawn(const Page& page, const Panel& panel, std::size_t number, doub
   std::string text =
       "\nset autoscale\nunset logscale\nset format '%g'\nset offsets 0,0,graph "
       "0.06,graph 0.06\n";
-  double x_largest = 0.0, y_largest = 0.0, z_largest = 0.0;
+  Extent x_extent, y_extent, z_extent;
   for (const Curve& curve : panel.curves) {
-    x_largest = largest_of(curve.x, x_largest);
-    y_largest = largest_of(curve.y, y_largest);
+    x_extent.add(curve.x);
+    y_extent.add(curve.y);
   }
   for (const Image& image : panel.images) {
-    x_largest = std::max(x_largest, std::abs(image.x) + image.dx * static_cast<double>(image.columns - 1));
-    y_largest =
-        std::max(y_largest,
-                 std::abs(image.y) + image.dy * static_cast<double>(image.values.size() / image.columns - 1));
-    z_largest = largest_of(image.values, z_largest);
+    x_extent.add({image.x, image.x + image.dx * static_cast<double>(image.columns - 1)});
+    y_extent.add(
+        {image.y, image.y + image.dy * static_cast<double>(image.values.size() / image.columns - 1)});
+    z_extent.add(image.values);
   }
-  const Prefix x = prefix_of(x_largest, panel.x.unit), y = prefix_of(y_largest, panel.y.unit),
-               z = prefix_of(z_largest, panel.image_unit);
+  const Prefix x = x_extent.prefix(panel.x.unit), y = y_extent.prefix(panel.y.unit),
+               z = z_extent.prefix(panel.image_unit);
 
   // What stands around it.
   Legend legend{left + 16.0, right};
   if (panel.own_legend) legend.add(panel);
-  const double middle = 0.5 * (left + 52.0 + right - 10.0);
+  const double middle = 0.5 * (left + 52.0 + right - 15.0);
   text +=
       page.text(left + 2.0, top + 8.0, std::string("(") + static_cast<char>('a' + number % 26) + ")", "left");
   text += page.text(middle, top + 8.0,
@@ -187,7 +203,7 @@ std::string drawn(const Page& page, const Panel& panel, std::size_t number, doub
   bottom -= 42.0;
   text += page.text(left + 7.0, 0.5 * (top + bottom), labelled(panel.y, y), "center rotate by 90");
   left += 52.0;
-  right -= 10.0;
+  right -= 15.0;
   const auto margin = [&](const char* side, double part) {
     text += std::string("set ") + side + "margin at screen " + digits(part) + "\n";
   };
@@ -199,13 +215,13 @@ std::string drawn(const Page& page, const Panel& panel, std::size_t number, doub
   // What is drawn in it.
   std::string plots;
   if (!panel.images.empty())
-    text += palette(panel.images, z.over) + "set colorbox horizontal user origin " +
+    text += palette(z_extent, z.over) + "set colorbox horizontal user origin " +
             page.at(left + 10.0, top - 24.0) + " size screen " + digits((right - left - 20.0) / page.width) +
             ",screen " + digits(8.0 / page.height) + "\nset offsets\nset autoscale fix\n";
   for (std::size_t i = 0; i < panel.images.size(); ++i)
     plots +=
         drawn(panel.images[i], x, y, z.over, "$p" + std::to_string(number) + "i" + std::to_string(i), text);
-  double least = HUGE_VAL, most = 0.0;
+  Extent shown;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     auto [title, stroke, xs, ys] = panel.curves[c];
     if (stroke.width > 0.0 && ys.size() > 50) stroke.size = 0.0;  // dots would hide the line
@@ -213,8 +229,7 @@ std::string drawn(const Page& page, const Panel& panel, std::size_t number, doub
     for (std::size_t i = 0; i < ys.size(); ++i) {
       if (!std::isfinite(xs[i]) || !std::isfinite(ys[i]) || (panel.logarithmic && !(ys[i] > 0.0))) continue;
       rows += digits(xs[i] / x.over) + " " + digits(ys[i] / y.over) + "\n";
-      least = std::min(least, ys[i]);
-      most = std::max(most, ys[i]);
+      shown.add(ys[i]);
     }
     if (rows.empty()) continue;  // gnuplot would stop
     const std::string name = "$p" + std::to_string(number) + "c" + std::to_string(c);
@@ -239,8 +254,10 @@ std::string drawn(const Page& page, const Panel& panel, std::size_t number, doub
     return text + "plot NaN\nunset label\nunset arrow\n";
   }
   if (panel.logarithmic)
-    text += "set logscale y\nset format y '10^{%T}'\nset offsets\n" + decades(least, most).range('y');
-  return text + panel.settings + "plot " + plots.substr(2) + "\nunset label\nunset arrow\n";
+    text +=
+        "set logscale y\nset format y '10^{%T}'\nset offsets\n" + decades(shown.least, shown.most).range('y');
+  return text + marks(x_extent, x.over) + panel.settings + "plot " + plots.substr(2) +
+         "\nunset label\nunset arrow\n";
 }
 
 std::string terminal(std::string_view ending, double width, double height) {

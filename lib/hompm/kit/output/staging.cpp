@@ -157,11 +157,7 @@ void write_whole(const fs::path& path, std::string_view text) {
     return file.close();
   }
   constexpr bool waits = true;
-  StagingFolder staging(path.has_parent_path() ? path.parent_path() : ".", waits);
-  TextFile file = staging.create(path.filename());
-  file << text;
-  file.close();
-  staging.move_into_place(path.filename());
+  StagingFolder(path.has_parent_path() ? path.parent_path() : ".", waits).replace(path.filename(), text);
 }
 
 }  // namespace hompm::detail

@@ -82,8 +82,8 @@ gnuplot::Panel panel(const std::vector<Outcome>& outcomes, Field field, Cost cos
   gnuplot::Panel panel{.title = to_string(field),
                        .x = {to_string(cost)},
                        .y = {"relative L2 error"},
-                       .settings = "set logscale x\nset format x '10^{%T}'\n" + ranges.cost.range('x') +
-                                   ranges.error.range('y'),
+                       .settings = "set logscale x\nset xtics autofreq\nset format x '10^{%T}'\n" +
+                                   ranges.cost.range('x') + ranges.error.range('y'),
                        .logarithmic = true};
   auto& curves = panel.curves;
   curves.push_back(curve("best of all", {.colour = "#DDDDDD", .width = 7.0}, front(all)));

@@ -13,13 +13,13 @@
 namespace hompm {
 namespace {
 
-using Side = std::array<double, 5>;  // of values at 1 … 5 steps from a place
+using OneSide = std::array<double, 5>;  // of values at 1 … 5 steps from a place
 
 /// Weights at the place of the polynomial through them, and of its slope times the step.
-constexpr Side value_weights{5.0, -10.0, 10.0, -5.0, 1.0};
-constexpr Side slope_weights{-77.0 / 12.0, 107.0 / 6.0, -39.0 / 2.0, 61.0 / 6.0, -25.0 / 12.0};
+constexpr OneSide value_weights{5.0, -10.0, 10.0, -5.0, 1.0};
+constexpr OneSide slope_weights{-77.0 / 12.0, 107.0 / 6.0, -39.0 / 2.0, 61.0 / 6.0, -25.0 / 12.0};
 
-double weighted(const Side& weights, const Side& values) {
+double weighted(const OneSide& weights, const OneSide& values) {
   return std::inner_product(weights.begin(), weights.end(), values.begin(), 0.0);
 }
 
@@ -48,8 +48,8 @@ void add_breaks(const Scene& scene, const Reference& reference, double time, std
       for (const double value : fields.*point_fields[f]) size = std::max(size, std::abs(value) / scales[f]);
     for (std::size_t f = 0; f < names.size(); ++f) {
       const auto& values = fields.*point_fields[f];
-      Side left{};
-      Side right{};
+      OneSide left{};
+      OneSide right{};
       std::copy(values.rbegin() + 5, values.rend(), left.begin());
       std::copy(values.begin() + 5, values.end(), right.begin());
       const std::array value{weighted(value_weights, left), weighted(value_weights, right)};

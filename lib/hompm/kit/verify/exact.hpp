@@ -30,7 +30,7 @@ struct ExactSolution {
   ReferenceFields fields;
   /// At the times asked for, by time and place; nothing where the solution does not know. Left out are those
   /// within a millionth of the body's length of an end or of each other. Values and slopes are those of the
-  /// parabolas of the fourth degree through five points on each side.
+  /// polynomials of the fourth degree through five points on each side.
   std::optional<std::vector<FieldBreak>> breaks;
 };
 
