@@ -20,7 +20,7 @@ std::string formatted(double value, std::chars_format format, Count... count) {
 }
 
 /// In gnuplot's quotes, in which only the quote itself means anything, on one line.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string word = "'";
   for (const char c : text) word += c == '\'' ? "''" : c >= 0 && c < ' ' ? " " : std::string(1, c);
   return word + "'";
@@ -77,7 +77,7 @@ struct Page {
     return "screen " + digits(x / width) + ",screen " + digits(1.0 - y / height);
   }
   [[nodiscard]] std::string text(double x, double y, const std::string& text, const std::string& how) const {
-    return "set label " + quoted(text) + " at " + at(x, y) + " " + how + " noenhanced\n";
+    return "set label " + in_quotes(text) + " at " + at(x, y) + " " + how + " noenhanced\n";
   }
   [[nodiscard]] std::string legend(const Legend& legend, double top) const {
     std::string all;
@@ -317,7 +317,7 @@ std::string script(const Picture& picture, std::string_view ending, const std::s
   const double head = 26.0 + legend.height() + (legend.entries.empty() ? 0.0 : 6.0);
   const Page page{columns * picture.panel_width, head + static_cast<double>(rows) * picture.panel_height};
   std::string text = "set encoding utf8\nset terminal " + terminal(ending, page.width, page.height) + "\n";
-  if (!output.empty()) text += "set output " + quoted(output) + "\n";
+  if (!output.empty()) text += "set output " + in_quotes(output) + "\n";
   text +=
       "set border 3 linecolor rgb '#404040'\nset tics nomirror\nset grid linecolor rgb '#E0E0E0' linetype 1\n"
       "unset key\nset multiplot\n";
