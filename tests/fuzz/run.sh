@@ -45,6 +45,8 @@ run --case bar --variant large --scheme bspline --cells 8
 run --scene my.toml --set scheme.cells=4 --set effect.gravity.acceleration=1 --output out
 run --check golden --no-vtk
 run --resume golden
+exact --case column --at 0:1:3 --times 0,0.01 --jumps
+exact --case bar --times 0:0.01:3 --json --output exact.csv
 run --case column --scheme high-order --degree 4 --courant 0.1 --end-time 0.1 --snapshots 3 --checkpoint 10 --trace t --trace-values 3
 run --case bar --critical-step --json
 run --list --json
@@ -64,7 +66,7 @@ COMMANDS
 grep -oh '"[a-z][a-z0-9_.-]*"' $source/lib/hompm/kit/scene_file/keys.cpp $source/lib/hompm/effects/*.cpp | tr -d '"' | tr . '\n' |
   sort -u | sed 's/.*/"&"/' >scene.dict
 cp scene.dict study.dict
-grep -oh '"[a-z][a-z-]*"' $source/cli/hompm-*.cpp $source/cli/diff_options.cpp | sort -u | sed 's/"\(.*\)"/"--\1"/' | cat - scene.dict >command.dict
+grep -oh '"[a-z][a-z-]*"' $source/cli/hompm-*.cpp $source/cli/scene_choice.cpp $source/cli/diff_options.cpp | sort -u | sed 's/"\(.*\)"/"--\1"/' | cat - scene.dict >command.dict
 printf '"%s"\n' time particle X displacement velocity stress 1e400 nan inf -0 0x1p3 ',' ';' '\xef\xbb\xbf' '\x0d\x0a' >csv.dict
 printf '"%s"\n' '\xff\xff' '\xfe\xff' '\xfd\xff' '\xfc\xff' '\xff\xff\xff\xff\xff\xff\xff\xff' '\x00\x00\x00\x00\x00\x00\x00\x00' >trace.dict
 cp trace.dict checkpoint.dict

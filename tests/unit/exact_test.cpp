@@ -140,6 +140,16 @@ TEST_CASE("fronts from both ends of a free body, and a body that only falls", "[
   CHECK(flight.fields.displacement[0] == Approx(1.9).epsilon(1e-13));
 }
 
+TEST_CASE("a free body that stretches at a uniform rate does so until the fronts come", "[exact]") {
+  const Scene scene =
+      body("linear", free_free, "[initial.velocity]\nshape = \"linear\"\namplitude = 0.2\ngradient = 0.1\n");
+  const ExactSolution exact = exact_solution(scene, std::vector<MaterialPoint>{{0.03, 0.5}, {0.03, 0.6}});
+  // v = 0.2 m/s + 0.1/s X; the strain is 0.003.
+  CHECK(exact.fields.displacement[0] == Approx(0.03 * 0.25).epsilon(1e-13));
+  CHECK(exact.fields.velocity[1] == Approx(0.26).epsilon(1e-13));
+  CHECK(exact.fields.stress[0] == Approx(300.0).epsilon(1e-12));
+}
+
 TEST_CASE("travelling waves agree with the method of lines where it converges", "[exact]") {
   const Scene scene = body("linear", "ends = { left = \"free\", right = \"fixed\" }",
                            "[initial.velocity]\nshape = \"sine\"\namplitude = 0.2\nmode = 2\n"

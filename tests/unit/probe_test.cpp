@@ -108,6 +108,17 @@ TEST_CASE("probes find their body, and a place in space has rows only while a bo
   CHECK(times.front() >= 0.25 - 1e-9);
 }
 
+TEST_CASE("a probe in a body of one particle reads that", "[probe]") {
+  const Scene scene =
+      parse_scene(one_body + "probe = [{ X = 2.25, rows = 1 }, { x = 2.25, rows = 1 }]\n", "one",
+                  {{"scheme.name", "classical", "a"},
+                   {"scheme.cells", "1", "b"},
+                   {"scheme.particles_per_cell", "1", "c"}});
+  const Told all = told(scene);
+  REQUIRE(all.rows.size() == 4);
+  CHECK(all.rows[2].values[3] == all.snapshots.back().velocity[0]);
+}
+
 TEST_CASE("a scene with probes is written and read as the same", "[probe]") {
   const Scene scene = scene_of(two_bodies +
                                "[[probe]]\nX = 2.5\nbody = 1\n[[probe]]\nx = -1.0\nrows = 7\n"

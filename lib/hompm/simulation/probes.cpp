@@ -17,9 +17,9 @@ struct Particles {
 
 Particles particles_of(const Snapshot& snapshot, std::size_t body) {
   if (snapshot.body.empty()) return {0, snapshot.size() - 1};
-  const auto found = std::ranges::equal_range(snapshot.body, static_cast<std::int64_t>(body));
-  const auto first = static_cast<std::size_t>(found.begin() - snapshot.body.begin());
-  return {first, first + static_cast<std::size_t>(found.size()) - 1};
+  const auto begin = snapshot.body.begin();
+  const auto [first, end] = std::equal_range(begin, snapshot.body.end(), static_cast<std::int64_t>(body));
+  return {static_cast<std::size_t>(first - begin), static_cast<std::size_t>(end - begin) - 1};
 }
 
 /// The value at `place` on the line through the two of the particles that are nearest by `places`.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <optional>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -87,7 +88,7 @@ class RunFolder::Contents {
   detail::TextFile particles = staging.create("particles.csv");
   detail::TextFile stress = staging.create("stress.csv");
   detail::TextFile history = staging.create("history.csv");
-  std::unique_ptr<detail::TextFile> probes;
+  std::optional<detail::TextFile> probes;
   bool with_vtk;
   std::vector<double> vtk_times;
   bool whole = true;  // no write failed half-way
@@ -142,7 +143,7 @@ void RunFolder::write_probes(std::string_view rows) {
   contents_->change([&] {
     auto& file = contents_->probes;
     if (!file) {
-      file.reset(new detail::TextFile(contents_->staging.create("probes.csv")));
+      file.emplace(contents_->staging.add("probes.csv"), path() / "probes.csv");
       *file << detail::probe_header();
     }
     *file << rows;

@@ -168,10 +168,8 @@ class Trace::Recorder {
   static std::string text_of(Value value) {
     if constexpr (std::is_integral_v<Value>)
       return std::to_string(value);
-    else if (std::isfinite(value))
-      return to_text(value);
     else
-      return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+      return std::isfinite(value) ? to_text(value) : std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
   }
 
   /// Of the step that begins.

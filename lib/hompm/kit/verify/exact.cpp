@@ -66,8 +66,9 @@ void add_breaks(const Scene& scene, const Reference& reference, double time, std
 /// Throws `Error` where the solution is not good over the body.
 void demand_sound(const Scene& scene, const Reference& reference, double time) {
   constexpr int count = 33;
-  std::vector<double> X;
-  for (int i = 0; i < count; ++i) X.push_back(scene.body.left() + scene.body.length * i / (count - 1));
+  std::vector<double> X(count);
+  for (int i = 0; i < count; ++i)
+    X[static_cast<std::size_t>(i)] = scene.body.left() + scene.body.length * i / (count - 1);
   std::string reason;
   if (!detail::sound_fields(reference, time, X, reason))
     throw SceneError(Origin{"scene"}, "no exact solution at t = " + to_text(time) + " s: " + reason);

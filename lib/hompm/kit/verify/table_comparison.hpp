@@ -49,6 +49,6 @@ class FieldJudge {
 /// Hands every pair of values with the same time and particle to `judge`; rows without a counterpart or in
 /// another order become messages. `fields` counts the fields of the tables. With `more_times`, A may have
 /// rows at times between those of B. Throws `FileError`.
-void compare_tables(Table& a, Table& b, std::size_t fields, FieldJudge& judge, bool more_times);
+void compare_tables(Table& a, Table& b, std::size_t fields, FieldJudge& judge, bool more_times = false);
 
 }  // namespace hompm::detail
