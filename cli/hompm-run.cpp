@@ -56,9 +56,8 @@ Tool this_tool() {
               "errors against the reference solution: auto, unless it takes longer than the run and 2 s "
               "(default); full, however long it takes (default with --check); none"},
              {"picture", "FILE",
-              "draw the run: .svg, .png or .pdf, by gnuplot; --picture FILE FOLDER... draws runs that are "
-              "there "
-              "already, several to compare them"},
+              "draw the run: .svg, .png or .pdf, by gnuplot; behind FILE names of folders draw the runs that "
+              "are there instead of a new one"},
              {"picture-xt", "FILE",
               "draw stress and velocity over X and time, of 200 snapshots unless --snapshots is given"},
              {"quiet", "", "print nothing but errors"}}},
@@ -85,17 +84,6 @@ Tool this_tool() {
       .takes_arguments = true};
 }
 
-/// Draws what is asked for; the exit code, of which `undrawn` says that there is no gnuplot.
-int draw(const CommandLine& given, const std::vector<std::string>& folders, int code, int undrawn) {
-  const HeldInterruption held;
-  try {
-    return draw_runs(given, folders) ? code : undrawn;
-  } catch (const Interrupted& signal) {
-    std::cerr << "hompm-run: stopped by " << signal.name() << " while the picture was drawn" << std::endl;
-    return signal.exit_code();
-  }
-}
-
 int run(const CommandLine& given) {
   if (given.has("list") || given.has("keys")) {
     const auto form = given.has("json") ? Form::json : Form::text;
@@ -103,7 +91,7 @@ int run(const CommandLine& given) {
     return success;
   }
   check_picture_options(given);
-  if (!given.arguments.empty()) return draw(given, given.arguments, success, bad_file);
+  if (!given.arguments.empty()) return draw_runs(given, given.arguments) ? success : bad_file;
   std::optional<Checkpoint> from;
   if (given.has("resume")) from = read_checkpoint(given.text("resume"));
   Scene scene = from ? resumed_scene(given, *from) : scene_of(given);
@@ -112,7 +100,8 @@ int run(const CommandLine& given) {
   const int code = run_scene(std::move(scene), given, std::move(from));
   const bool ran =
       (code == success || code == different) && !given.has("critical-step") && !given.has("explain");
-  return ran ? draw(given, {folder}, code, code) : code;
+  if (ran && (given.has("picture") || given.has("picture-xt"))) draw_runs(given, {folder});
+  return code;
 }
 
 }  // namespace

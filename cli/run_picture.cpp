@@ -17,7 +17,6 @@
 #include <hompm/number.hpp>
 
 #include "child.hpp"
-#include "interruption.hpp"
 #include "scene_run.hpp"
 
 namespace hompm::cli {
@@ -370,12 +369,7 @@ gnuplot::Picture space_time(const std::vector<Run>& runs) {
       for (std::size_t first = 0, end = 0; first < n; first = end) {  // a body: its particles lie evenly
         end = first + 1;
         while (end < n && (start.body.empty() || start.body[end] == start.body[first])) ++end;
-        gnuplot::Image image{.x = start.X[first],
-                             .dx = 1.0,
-                             .y = 0.0,
-                             .dy = 1.0,
-                             .columns = (end - first + every - 1) / every,
-                             .values = {}};
+        gnuplot::Image image{start.X[first], 1.0, 0.0, 1.0, (end - first + every - 1) / every, {}};
         if (end - first > 1) image.dx = (start.X[first + 1] - start.X[first]) * static_cast<double>(every);
         // The last one of a run that came to rest is early.
         if (const auto k = std::max(run.last(), std::size_t{2}) - 1; run.last() > 0)
@@ -401,7 +395,7 @@ void check_picture_options(const CommandLine& given) {
   for (const auto& [name, value] : given.options)
     if (name != "picture" && name != "picture-xt" && name != "errors" && name != "quiet" &&
         name != "other arguments")
-      throw UsageError("--" + name + " is about a new run, and `" + first +
+      throw UsageError(std::string("--").append(name).append(" is about a new run, and `").append(first) +
                        "` one that is there: draw one or the other");
 }
 

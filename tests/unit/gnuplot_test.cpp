@@ -106,6 +106,18 @@ TEST_CASE("an axis of powers of ten leaves out what has no logarithm", "[gnuplot
   CHECK(contains(text, "set yrange [0.001:1]"));
 }
 
+TEST_CASE("marks along X are few", "[gnuplot]") {
+  for (const auto& [length, marks] :
+       {std::pair{0.996, "0.2"}, {2.5, "0.5"}, {5.0, "1"}, {24.9, "5"}, {60.0, "20"}, {0.0, "autofreq"}}) {
+    const Stroke line{.colour = "#000000", .width = 1.0};
+    const Picture picture{
+        .title = "t",
+        .panels = {
+            {.title = "p", .x = {"X"}, .y = {"u"}, .curves = {{"", line, {1.0, 1.0 + length}, {0.0, 1.0}}}}}};
+    CHECK(contains(script(picture, ".svg", ""), std::string("set xtics ") + marks + "\n"));
+  }
+}
+
 TEST_CASE("an image has colours around zero where both signs matter, and a scale in a unit that fits",
           "[gnuplot]") {
   Picture picture{.title = "t",

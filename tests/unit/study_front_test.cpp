@@ -187,9 +187,9 @@ TEST_CASE("a picture draws failed points as crosses at the edge, and the referen
   auto lost = failed("bad", 8, study::Status::refused);
   lost.record.instructions.reset();
   CHECK(contains(study::picture_script({lost}, Cost::instructions, "bar", "error"), "<< EOD\n1 1\nEOD"));
-  // Of many schemes those that are nowhere the best are grey.
-  for (const char* name : {"a", "b", "c", "d", "e", "f"})
-    outcomes.push_back(failed(name, 8, study::Status::refused));
+  // Of many schemes the most accurate are in colour.
   CHECK_FALSE(contains(script, "'others'"));
+  for (const char* name : {"a", "b", "c", "d", "e", "f"})
+    outcomes.push_back(outcome(name, 8, 1000, 0.001 * name[0]));
   CHECK(contains(study::picture_script(outcomes, Cost::instructions, "bar", "error"), "'others'"));
 }

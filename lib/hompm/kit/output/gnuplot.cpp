@@ -98,7 +98,7 @@ struct Page {
 /// A prefix by which values up to `largest` have few digits: kPa for 20000 Pa.
 struct Prefix {
   double over = 1.0;
-  std::string name = "";
+  std::string name;
 };
 
 Prefix prefix_of(double largest, const std::string& unit) {
@@ -182,8 +182,8 @@ std::string drawn(const Page& page, const Panel& panel, std::size_t number, doub
   }
   for (const Image& image : panel.images) {
     x_extent.add({image.x, image.x + image.dx * static_cast<double>(image.columns - 1)});
-    y_extent.add(
-        {image.y, image.y + image.dy * static_cast<double>(image.values.size() / image.columns - 1)});
+    const std::size_t rows = image.values.size() / image.columns;
+    y_extent.add({image.y, image.y + image.dy * static_cast<double>(rows - 1)});
     z_extent.add(image.values);
   }
   const Prefix x = x_extent.prefix(panel.x.unit), y = y_extent.prefix(panel.y.unit),
@@ -228,17 +228,14 @@ std::string drawn(const Page& page, const Panel& panel, std::size_t number, doub
     std::string rows;
     for (std::size_t i = 0; i < ys.size(); ++i) {
       if (!std::isfinite(xs[i]) || !std::isfinite(ys[i]) || (panel.logarithmic && !(ys[i] > 0.0))) continue;
-      rows += digits(xs[i] / x.over) + " " + digits(ys[i] / y.over) + "\n";
+      rows.append(digits(xs[i] / x.over)).append(" ").append(digits(ys[i] / y.over)).append("\n");
       shown.add(ys[i]);
     }
     if (rows.empty()) continue;  // gnuplot would stop
     const std::string name = "$p" + std::to_string(number) + "c" + std::to_string(c);
-    text += name + " << EOD\n" + rows + "EOD\n";
-    plots += ", " + name + " using 1:2 with " +
-             (stroke.width == 0.0  ? "points"
-              : stroke.size == 0.0 ? "lines"
-                                   : "linespoints") +
-             colour(stroke);
+    const char* const with = stroke.width == 0.0 ? "points" : stroke.size == 0.0 ? "lines" : "linespoints";
+    text.append(name).append(" << EOD\n").append(rows).append("EOD\n");
+    plots.append(", ").append(name).append(" using 1:2 with ").append(with).append(colour(stroke));
     if (stroke.width > 0.0) plots += line(stroke);
     if (stroke.size > 0.0) plots += dots(stroke, stroke.size);
     plots += " notitle";
@@ -324,7 +321,8 @@ std::string script(const Picture& picture, std::string_view ending, const std::s
   text += page.text(0.5 * page.width, 12.0, picture.title, "center") + page.legend(legend, 22.0);
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     const double left = static_cast<double>(i % picture.columns) * picture.panel_width;
-    const double top = head + static_cast<double>(i / picture.columns) * picture.panel_height;
+    const std::size_t row = i / picture.columns;
+    const double top = head + static_cast<double>(row) * picture.panel_height;
     text +=
         drawn(page, picture.panels[i], i, left, top, left + picture.panel_width, top + picture.panel_height);
   }

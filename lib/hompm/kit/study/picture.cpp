@@ -66,14 +66,21 @@ double floor_of(const std::vector<Outcome>& outcomes, Field field) {
   return highest;
 }
 
-/// Many lines on top of each other: those of schemes that are nowhere the best are then grey.
+/// Many lines on top of each other: those of schemes that are in no field among the most accurate are grey.
 bool is_grey(const std::vector<Outcome>& outcomes, const std::string& scheme, Cost cost) {
-  constexpr std::size_t many = 8;
-  if (schemes_in(outcomes).size() <= many) return false;
+  constexpr int many = 8;
+  constexpr int few = 4;
+  const auto schemes = schemes_in(outcomes);
+  if (schemes.size() <= many) return false;
   return std::ranges::none_of(all_fields, [&](Field field) {
     const Choice all = choice_of(outcomes, field, cost);
-    return std::ranges::any_of(pareto_front(all.candidates),
-                               [&](std::size_t i) { return all.outcomes[i]->record.scheme == scheme; });
+    const auto least = [&](const std::string& name) {
+      double error = std::numeric_limits<double>::infinity();
+      for (const Candidate& run : of_scheme(all, name).candidates) error = std::min(error, run.error);
+      return error;
+    };
+    const double mine = least(scheme);
+    return std::ranges::count_if(schemes, [&](const std::string& name) { return least(name) < mine; }) < few;
   });
 }
 
@@ -85,24 +92,25 @@ gnuplot::Panel panel(const std::vector<Outcome>& outcomes, Field field, Cost cos
                        .settings = "set logscale x\nset xtics autofreq\nset format x '10^{%T}'\n" +
                                    ranges.cost.range('x') + ranges.error.range('y'),
                        .logarithmic = true};
-  auto& curves = panel.curves;
-  curves.push_back(curve("best of all", {.colour = "#DDDDDD", .width = 7.0}, front(all)));
+  const auto add = [&](const std::string& name, const Stroke& stroke, const std::vector<Candidate>& rows) {
+    if (!rows.empty()) panel.curves.push_back(curve(name, stroke, rows));
+  };
+  add("best of all", {.colour = "#DDDDDD", .width = 7.0}, front(all));
   for (const bool grey : {true, false})  // below the others
     for (const std::string& scheme : schemes_in(outcomes)) {
       if (is_grey(outcomes, scheme, cost) != grey) continue;
       Stroke stroke = grey ? Stroke{.colour = "#AAAAAA"} : gnuplot::scheme_stroke(scheme);
       const Choice part = of_scheme(all, scheme);
-      stroke.size = 0.2;
-      curves.push_back(curve("", {.colour = stroke.colour, .size = 0.2}, part.candidates));
+      add("", {.colour = stroke.colour, .size = 0.2}, part.candidates);
       stroke.width = grey ? 1.0 : 1.5;
       stroke.size = grey ? 0.0 : 0.5;
-      curves.push_back(curve(grey ? "others" : scheme, stroke, front(part)));
-      curves.push_back(curve("failed", {.colour = stroke.colour, .shape = 2, .size = 0.6},
-                             failures(outcomes, scheme, cost, ranges)));
+      add(grey ? "others" : scheme, stroke, front(part));
+      add("failed", {.colour = stroke.colour, .shape = 2, .size = 0.6},
+          failures(outcomes, scheme, cost, ranges));
     }
   if (const double own = floor_of(outcomes, field); own > ranges.error.from)
-    curves.push_back(curve("own error of the reference", {.colour = "#606060", .dash = 2, .width = 1.5},
-                           {{ranges.cost.from, own}, {ranges.cost.to, own}}));
+    add("own error of the reference", {.colour = "#606060", .dash = 2, .width = 1.5},
+        {{ranges.cost.from, own}, {ranges.cost.to, own}});
   return panel;
 }
 
