@@ -243,10 +243,11 @@ std::int64_t parse_steps(const std::string& text, const std::string& option, std
                    std::to_string(least));
 }
 
-std::pair<std::string, std::string> key_and_value(const std::string& text) {
+std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option,
+                                                  const std::string& form, const std::string& sample) {
   const auto equals = text.find('=');
   if (equals != std::string::npos && equals > 0) return {text.substr(0, equals), text.substr(equals + 1)};
-  throw UsageError("--set " + text + ": expected KEY=VALUE, as in --set scheme.cells=32");
+  throw UsageError(option + " " + text + ": expected " + form + ", as in " + option + " " + sample);
 }
 
 void warn(const std::string& message) { std::cerr << "hompm-run: warning: " << message << std::endl; }

@@ -79,8 +79,11 @@ std::uint64_t parse_count(const std::string& text, const std::string& where);
 /// `option` and `text`.
 std::int64_t parse_steps(const std::string& text, const std::string& option, std::int64_t least);
 
-/// KEY=VALUE of --set, taken apart. Throws `UsageError`.
-std::pair<std::string, std::string> key_and_value(const std::string& text);
+/// KEY=VALUE of --set, or what another option calls it, taken apart. Throws `UsageError`.
+std::pair<std::string, std::string> key_and_value(const std::string& text,
+                                                  const std::string& option = "--set",
+                                                  const std::string& form = "KEY=VALUE",
+                                                  const std::string& sample = "scheme.cells=32");
 
 /// One line on standard error that is not the end: "hompm-run: warning: <message>".
 void warn(const std::string& message);

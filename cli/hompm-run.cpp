@@ -39,22 +39,30 @@ Tool this_tool() {
              {"time-step", "S", "scheme.time_step, s"},
              {"courant", "C", "scheme.courant, c dt/h"},
              {"step-fraction", "R", "scheme.step_fraction, time step over the critical one"},
+             {"require", "FIELD=BOUND...",
+              "exit code 3 unless the relative error of displacement, velocity or stress is known to be this "
+              "at "
+              "most; as [require] in a scene"},
              {"critical-step", "", "print the critical time step, and run nothing"},
              {"explain", "", "print the stages of a step and what called for each, and run nothing"}}},
            {"outputs",
             "what is written and printed",
-             {"hompm-run --case bar --output out --snapshots 50", "hompm-run --case bar --json",
-              "hompm-run --case column --picture column.svg",
-              "hompm-run --picture both.pdf hompm-out/bar-large-bspline-p2-64 hompm-out/bar-large-high-order-p3-64"},
-             {{"output", "DIR", "output folder (default hompm-out/CASE-VARIANT-SCHEME-pDEGREE-CELLS)"},
+            {"hompm-run --case bar --output out --snapshots 50", "hompm-run --case bar --json",
+             "hompm-run --case column --picture column.svg",
+             "hompm-run --picture both.pdf hompm-out/bar-large-bspline-p2-64 "
+             "hompm-out/bar-large-high-order-p3-64"},
+            {{"output", "DIR", "output folder (default hompm-out/CASE-VARIANT-SCHEME-pDEGREE-CELLS)"},
              {"snapshots", "N", "output.snapshots, after the start"},
              {"probe", "WHERE...",
               "add a [[probe]], for probes.csv: X in m, an end (left, right), or x=PLACE"},
              {"no-clobber", "", "refuse to replace a run that is in the output folder"},
              {"no-vtk", "", "write no vtk files"},
              {"errors", "WHICH",
-              "errors against the reference solution: auto, unless it takes longer than the run and 2 s "
-              "(default); full, however long it takes (default with --check); none"},
+              "errors against the reference solution: auto, unless it takes longer than the run and 2 s, or "
+              "where "
+              "runs of a better scheme make it a fifth of the run (default); full, however long it takes, "
+              "such "
+              "runs ten times the run (default with --check); none"},
              {"picture", "FILE",
               "draw the run: .svg, .png or .pdf, by gnuplot; behind FILE names of folders draw the runs that "
               "are there instead of a new one"},
@@ -78,9 +86,10 @@ Tool this_tool() {
               "write one at the end, too, and keep it: --resume with a later --end-time"},
              {"resume", "FILE", "go on from a checkpoint, in its folder unless --output is given"}}}},
       .remarks =
-          "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden, 4 the run\n"
-          "became invalid, 5 cannot read or write, 6 this build or process does not\n"
-          "compute as IEEE 754 says, 128 + n stopped by signal n.\n",
+          "Exit codes: 0 fine, 2 bad usage or scene, 3 differs from golden or is not as\n"
+          "good as --require asks, 4 the run became invalid, 5 cannot read or write,\n"
+          "6 this build or process does not compute as IEEE 754 says, 128 + n stopped by\n"
+          "signal n.\n",
       .takes_arguments = true};
 }
 

@@ -40,6 +40,10 @@ std::vector<Override> overrides_of(const CommandLine& given) {
   // Rows of pixels.
   if (given.has("picture-xt") && !given.has("snapshots") && !given.has("check"))
     overrides.push_back({"output.snapshots", "200", "--picture-xt " + given.text("picture-xt")});
+  for (const auto& text : given.texts("require")) {
+    const auto [field, bound] = key_and_value(text, "--require", "FIELD=BOUND", "stress=1e-2");
+    overrides.push_back({"require." + field, bound, "--require " + text});
+  }
   return overrides;
 }
 
@@ -74,7 +78,8 @@ std::vector<Option> scene_options(const std::vector<Option>& more) {
 
 void demand_same_scene(Scene& scene, const CommandLine& given) {
   const std::string folder = given.text("check");
-  const Scene golden = load_scene(fs::path(folder) / "scene.toml", {});
+  Scene golden = load_scene(fs::path(folder) / "scene.toml", {});
+  golden.require = scene.require;
   const auto [snapshots, history] = golden.output;
   const bool among = scene.output.snapshots % snapshots == 0 && scene.output.history % history == 0;
   if (!among && !given.has("snapshots") && scene.origins.count("output.snapshots") == 0)
@@ -96,14 +101,15 @@ Scene resumed_scene(const CommandLine& given, const Checkpoint& from) {
     scene = scene_of(given);
   } else if (const auto overrides = overrides_of(given); !overrides.empty()) {
     for (const Override& change : overrides)
-      if (change.key != "end_time")
+      if (change.key != "end_time" && !change.key.starts_with("require."))
         throw UsageError(change.option +
                          ": --resume goes on with the scene in the checkpoint, of which only "
-                         "end_time can be changed");
+                         "end_time and [require] can be changed");
     scene = parse_scene(scene_text(from.scene), "scene in the checkpoint", overrides);
   }
   Scene before = from.scene;
   before.end_time = scene.end_time;
+  before.require = scene.require;
   const std::string mine = scene_text(scene);
   const std::string theirs = scene_text(before);
   if (mine != theirs)

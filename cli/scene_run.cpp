@@ -10,6 +10,7 @@
 #include <iostream>
 #include <memory>
 #include <span>
+#include <sstream>
 #include <string>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -18,6 +19,7 @@
 
 #include <hompm/kit/output/run_report.hpp>
 #include <hompm/kit/scene_file/reader.hpp>
+#include <hompm/kit/verify/made_reference.hpp>
 #include <hompm/number.hpp>
 #include <hompm/simulation/warnings.hpp>
 
@@ -203,13 +205,32 @@ void say_stopped(const Interrupted& signal, const std::string& rest) {
 
 struct BudgetUsedUp {};
 
+/// How much a reference may cost.
+struct Budget {
+  std::string asked;  ///< auto, full, none
+  double seconds;     ///< of a known solution, with auto
+  double work;        ///< counted, of runs where none is known
+};
+
 /// Errors against the reference solution as far as they are asked for; `reason` says why there are none.
 /// Throws `Interrupted`.
-std::optional<ErrorReport> errors_of(const Scene& scene, const RunResult& result, const std::string& asked,
-                                     double seconds, bool quiet, std::string& reason) {
+std::optional<ErrorReport> errors_of(const Scene& scene, const RunResult& result, const RunMotion& motion,
+                                     const Budget& budget, bool quiet, std::string& reason) {
   std::optional<ErrorReport> errors;
-  const auto work = [&](const ReferenceWatch& watch) { errors = judge(scene, result, reason, watch); };
-  within_budget(asked, seconds, quiet, reason, work);
+  const auto work = [&](const ReferenceWatch& watch) {
+    errors = judge(scene, result, reason, watch, motion);
+  };
+  if (!within_budget(budget.asked, budget.seconds, quiet, reason, work) || errors) return errors;
+  // What runs may cost is counted, not timed: whether there are errors must not depend on the clock.
+  ProgressBar bar(quiet, "errors ");
+  std::string no_runs;
+  const auto show = [&](double part) {
+    check_interruption();
+    constexpr double parts = 1e6;
+    bar.update(static_cast<std::int64_t>(parts * part), static_cast<std::int64_t>(parts));
+  };
+  errors = judge_by_runs(scene, result, budget.work, no_runs, show, motion);
+  if (!errors) reason += "; " + no_runs;
   return errors;
 }
 
@@ -293,6 +314,8 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
   for (const auto& snapshot : begin.snapshots) folder.write(snapshot);
   folder.write_probes(begin.probes);
   Snapshot last_valid = begin.snapshots.empty() ? Snapshot{} : begin.snapshots.back();
+  RunMotion motion;
+  for (const auto& snapshot : begin.snapshots) motion.look(scene, snapshot);
 
   RunObserver observer;
   const auto keep = [&](const auto& record) {
@@ -301,6 +324,7 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
   };
   observer.snapshot = [&](const Snapshot& snapshot) {
     keep(snapshot);
+    motion.look(scene, snapshot);
     last_valid = snapshot;
   };
   observer.history = keep;
@@ -342,7 +366,8 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
   const double seconds = clock.seconds();
   std::optional<ErrorReport> errors;
   std::string no_errors_because = "the reference solution was not computed to its end";
-  const RunReport report{scene, stepping, result, errors, no_errors_because};
+  RunReport report{scene, stepping, result, errors, no_errors_because};
+  report.verdict = verdict_of(scene, result, errors, no_errors_because, motion);
   folder.write("scene.toml", scene_text(scene));
   folder.write("run.json", run_json(report));
   folder.write("timing.json", timing_json(result, seconds));
@@ -351,11 +376,14 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
   // 3. The reference solution, and what it says.
   const Stopwatch reference_clock;
   try {
-    errors = errors_of(scene, result, begin.errors, seconds, quiet, no_errors_because);
+    const bool more = begin.errors == "full" && (given.has("errors") || !given.has("check"));
+    const Budget budget{begin.errors, seconds, reference_budget(scene, stepping, more)};
+    errors = errors_of(scene, result, motion, budget, quiet, no_errors_because);
   } catch (const Interrupted& signal) {
     say_stopped(signal, " while errors were computed; the run in " + where + " is complete without them");
     return signal.exit_code();
   }
+  report.verdict = verdict_of(scene, result, errors, no_errors_because, motion);
   const std::string json = run_json(report);
   folder.replace("run.json", json);
   folder.replace(
@@ -366,11 +394,16 @@ int run_scene(Scene scene, const CommandLine& given, std::optional<Checkpoint> f
     if (given.has("json"))
       std::cout << json;
     else
-      std::cout << run_summary(report) << "  files     " << where << "\n";
+      std::cout << run_summary(report) << "  files     " << where << "\n  verdict   " << report.verdict.text
+                << "\n";
   }
+  int code = success;
   if (given.has("check"))
-    return check_against(given.text("check"), folder.path(), quiet || given.has("json"));
-  return success;
+    code = check_against(given.text("check"), folder.path(), quiet || given.has("json"));
+  std::istringstream missed(unmet(scene, errors, report.verdict));
+  for (std::string line; std::getline(missed, line); code = different)
+    std::cerr << "hompm-run: " << line << '\n';
+  return code;
 }
 
 }  // namespace hompm::cli

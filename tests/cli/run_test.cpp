@@ -281,3 +281,76 @@ TEST_CASE("the VTU of several bodies says which particle is whose") {
   for (const auto& entry : fs::recursive_directory_iterator(scratch / "out"))
     if (entry.path().extension() == ".vtu") CHECK_THAT(read_file(entry.path()), contains("Name=\"body\""));
 }
+
+TEST_CASE("the last line says whether to believe a run, and run.json the same") {
+  const TemporaryFolder scratch;
+  const std::string out = " --no-vtk --output " + quoted((scratch / "out").string());
+  const std::string hats = tool + " --case column --scheme classical --cells 16 --time-step 1e-3";
+  const auto done = run_command(hats + out);
+  CHECK(done.exit_code == 0);
+  const auto last = done.out.substr(done.out.rfind('\n', done.out.size() - 2) + 1);
+  CHECK_THAT(last, contains("  verdict   bad: ") && contains("particles crossed cells with hat functions"));
+  const auto json = nlohmann::json::parse(read_file(scratch / "out/run.json"));
+  CHECK(json["verdict"]["level"] == "bad");
+  CHECK(json["verdict"]["cause"]["code"] == "grid-crossing");
+  CHECK("  verdict   " + std::string(json["verdict"]["text"]) + "\n" == last);
+  CHECK(json["errors"]["kind"] == "computed");
+  CHECK(json["errors"]["bound"]["stress"] >= json["errors"]["stress"]["relative_l2"]);
+  const auto none = nlohmann::json::parse(run_command(tool + quick + " --json --errors none" + out).out);
+  CHECK(none["verdict"]["level"] == "unknown");
+  CHECK(none["verdict"]["cause"].is_null());
+  CHECK(none["errors"]["kind"] == "none");
+}
+
+TEST_CASE(
+    "a scene without a known solution is judged by runs of a better scheme, of the same bytes each time") {
+  const TemporaryFolder scratch;
+  const std::string scene =
+      tool + " --scene " HOMPM_SOURCE_DIR "/docs/scenes/contact.toml --cells 8 --no-vtk";
+  const auto json = [&](const std::string& options) {
+    return run_command(scene + options + " --json --output " + quoted((scratch / "out").string())).out;
+  };
+  const auto first = json("");
+  const auto errors = nlohmann::json::parse(first)["errors"];
+  CHECK(errors["kind"] == "extrapolated");
+  CHECK_THAT(std::string(errors["reference"]), contains("runs by high-order on up to "));
+  CHECK(json("") == first);
+  CHECK_THAT(nlohmann::json::parse(json(" --errors none"))["errors"].dump(), !contains("bound"));
+}
+
+TEST_CASE("--require: exit 3 unless the run is known to be as good, with the number and what helps") {
+  const TemporaryFolder scratch;
+  const auto done = [&](const std::string& options) {
+    return run_command(tool + " --case bar --cells 16 --end-time 0.5 --time-step 1e-3 --quiet --output " +
+                       quoted((scratch / "out").string()) + options);
+  };
+  CHECK(done(" --require stress=0.1 --require velocity=0.1").exit_code == 0);
+  CHECK_THAT(read_file(scratch / "out/scene.toml"), contains("[require]\nvelocity = 0.1\nstress = 0.1\n"));
+  const auto worse = done(" --require stress=1e-9");
+  CHECK(worse.exit_code == 3);
+  CHECK_THAT(worse.err, contains("hompm-run: stress is to be good to 1e-09, and is good to "));
+  CHECK(fs::exists(scratch / "out/run.json"));
+  const auto unknown = done(" --require stress=0.1 --errors none");
+  CHECK(unknown.exit_code == 3);
+  CHECK_THAT(unknown.err, contains("and is not known: ") && contains("--errors none was given"));
+  const auto misspelt = done(" --require stres=0.1");
+  CHECK(misspelt.exit_code == 2);
+  CHECK_THAT(misspelt.err,
+             contains("--require stres=0.1: ") && contains("did you mean") && contains("stress"));
+  CHECK_THAT(done(" --require stress=0").err,
+             contains("--require stress=0: `require.stress` must be a number greater than 0, not 0"));
+  CHECK_THAT(done(" --require stress").err,
+             contains("--require stress: expected FIELD=BOUND, as in --require stress=1e-2"));
+}
+
+TEST_CASE("--require goes with a golden folder and with a run that is resumed") {
+  const TemporaryFolder scratch;
+  const std::string out = " --quiet --no-vtk --output " + quoted((scratch / "out").string());
+  const std::string golden = tool + " --check " HOMPM_SOURCE_DIR "/golden/bar-small-high-order" + out;
+  CHECK(run_command(golden + " --require displacement=1e-6").exit_code == 0);
+  CHECK(run_command(golden + " --require displacement=1e-12").exit_code == 3);
+  REQUIRE(run_command(tool + quick + " --keep-checkpoint" + out).exit_code == 0);
+  const auto resumed = run_command(tool + " --resume " + quoted((scratch / "out").string()) +
+                                   " --end-time 0.02 --quiet --require stress=1e-12");
+  CHECK(resumed.exit_code == 3);
+}

@@ -121,6 +121,11 @@ struct ProbeSpec {
   std::optional<std::int64_t> rows = {};  ///< after the start, evenly spaced in time; else as the history
 };
 
+/// The largest bound of the relative error of each field at the end that the run may have, to be of use.
+struct Requirement {
+  std::optional<double> displacement, velocity, stress;
+};
+
 struct Scene {
   std::string case_name;  ///< "bar", "column", or the name of a scene of one's own
   std::string variant;    ///< "" where there is none
@@ -138,6 +143,7 @@ struct Scene {
   SchemeSpec scheme;
   OutputSpec output;
   std::vector<ProbeSpec> probes;
+  Requirement require;
 
   /// The scene of each body, where there are several: what they share is the same in all, each has the
   /// effects that act on it. Body, material, ends and the like of this scene are then those of the

@@ -108,13 +108,20 @@ std::string run_json(const RunReport& report) {
   if (report.errors) {
     errors["reference"] = report.errors->reference;
     errors["reference_error"] = report.errors->reference_errors.displacement;
-    errors["displacement"] = json_of(report.errors->displacement);
-    errors["velocity"] = json_of(report.errors->velocity);
-    errors["stress"] = json_of(report.errors->stress);
+    for (const auto& field : error_fields) errors[field.name] = json_of((*report.errors).*field.norms);
+    errors["kind"] = to_string(report.errors->kind);
+    for (const auto& field : error_fields) errors["bound"][field.name] = report.errors->bound.*field.error;
+    errors["notes"] = report.errors->notes;
   } else {
     errors["reference"] = nullptr;
+    errors["kind"] = "none";
     errors["reason"] = report.no_errors_because;
   }
+  const RunVerdict& verdict = report.verdict;
+  json["verdict"] = {{"level", to_string(verdict.level)}, {"text", verdict.text}, {"cause", nullptr}};
+  if (!verdict.cause.text.empty())
+    json["verdict"]["cause"] = {
+        {"code", verdict.cause.code}, {"text", verdict.cause.text}, {"cure", verdict.cause.cure}};
   Json& warnings = json["warnings"] = Json::array();
   for (const auto& [code, said] : result.warnings) warnings.push_back({{"code", code}, {"text", said}});
   const HistoryRow& end = result.end;
@@ -181,8 +188,8 @@ std::string run_summary(const RunReport& report) {
     if (const double own = errors.reference_errors.displacement; own > 0.0)
       text += " (its own error: " + brief(own) + ")";
     text += "\n    " + padded("", 14) + padded("relative L2", 14) + padded("rms", 18) + "max\n";
-    text += row("displacement", errors.displacement, "m") + row("velocity", errors.velocity, "m/s") +
-            row("stress", errors.stress, "Pa");
+    for (const auto& field : error_fields) text += row(field.name, errors.*field.norms, field.unit);
+    for (const std::string& note : errors.notes) text += "    " + note + "\n";
   } else {
     text += "  errors    none: " + report.no_errors_because + "\n";
   }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <hompm/kit/verify/judge.hpp>
+#include <hompm/kit/verify/verdict.hpp>
 
 namespace hompm {
 
@@ -14,6 +14,7 @@ struct RunReport {
   const RunResult& result;
   const std::optional<ErrorReport>& errors;
   const std::string& no_errors_because;
+  RunVerdict verdict = {};
 };
 
 /// run.json as text, one key a line.

@@ -105,6 +105,8 @@ std::vector<KeyRow> make_key_table() {
   const ValueRule end = word({"fixed", "free"});  // in the order of the enumeration
   const std::string own = "the scheme's own";
   const std::string one_of = "give exactly one of time_step, courant, step_fraction";
+  const std::string bound = "else the run ends with exit code 3";
+  const std::string largest = "the most that `errors.bound` of run.json may say of the ";
   const std::string particles = "at most " + std::to_string(most_particles) + " particles in all";
   return {
       {"case", text, derived, "name of the file", "no / and no control character",
@@ -251,6 +253,13 @@ std::vector<KeyRow> make_key_table() {
        "times at which particles are written after the start", [](Scene& s) { return &s.output.snapshots; }},
       {"output.history", whole(1.0, 1e6), standard, "100", "", "rows of the history after the start",
        [](Scene& s) { return &s.output.history; }},
+
+      {"require.displacement", positive(""), derived, "", bound, largest + "displacement",
+       [](Scene& s) { return &s.require.displacement; }},
+      {"require.velocity", positive(""), derived, "", bound, largest + "velocity",
+       [](Scene& s) { return &s.require.velocity; }},
+      {"require.stress", positive(""), derived, "", bound, largest + "stress",
+       [](Scene& s) { return &s.require.stress; }},
   };
 }
 

@@ -39,10 +39,8 @@ std::string to_string(Cost cost) {
 std::optional<FieldError> error_of(const Outcome& outcome, Field field) {
   if (!outcome.record.errors) return std::nullopt;
   const ErrorReport& errors = *outcome.record.errors;
-  const ReferenceErrors& own = errors.reference_errors;
-  if (field == Field::displacement) return FieldError{errors.displacement, own.displacement};
-  if (field == Field::velocity) return FieldError{errors.velocity, own.velocity};
-  return FieldError{errors.stress, own.stress};
+  const ErrorField& row = error_fields[static_cast<std::size_t>(field)];
+  return FieldError{errors.*row.norms, errors.reference_errors.*row.error};
 }
 
 std::optional<double> cost_of(const Outcome& outcome, Cost cost) {

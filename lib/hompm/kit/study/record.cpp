@@ -75,11 +75,9 @@ std::string record_text(const Record& record) {
             {"program", record.program},
             {"scene", record.scene}};
   if (const auto& errors = record.errors) {
-    const ReferenceErrors& own = errors->reference_errors;
-    json["errors"] = {{"reference", errors->reference},
-                      {"displacement", json_of(errors->displacement, own.displacement)},
-                      {"velocity", json_of(errors->velocity, own.velocity)},
-                      {"stress", json_of(errors->stress, own.stress)}};
+    json["errors"] = {{"reference", errors->reference}};
+    for (const ErrorField& field : error_fields)
+      json["errors"][field.name] = json_of((*errors).*field.norms, errors->reference_errors.*field.error);
   }
   if (const auto& count = record.instructions)
     json["instructions"] = {{"total", count->total},
@@ -108,10 +106,8 @@ Record read_record(const std::string& text) {
     if (const Json& errors = json.at("errors"); !errors.is_null()) {
       ErrorReport& report = record.errors.emplace();
       report.reference = errors.at("reference");
-      ReferenceErrors& own = report.reference_errors;
-      read_norms(errors.at("displacement"), report.displacement, own.displacement);
-      read_norms(errors.at("velocity"), report.velocity, own.velocity);
-      read_norms(errors.at("stress"), report.stress, own.stress);
+      for (const ErrorField& field : error_fields)
+        read_norms(errors.at(field.name), report.*field.norms, report.reference_errors.*field.error);
     }
     if (const Json& count = json.at("instructions"); !count.is_null())
       record.instructions = Instructions{count.at("counted"), count.at("counted_steps"), count.at("total"),
