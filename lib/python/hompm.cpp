@@ -140,7 +140,11 @@ py::dict run_scene(const std::string& case_name, const std::string& variant, con
     const py::gil_scoped_release free;
     const TimeStepping stepping = time_stepping(scene);
     RunObserver observer;
-    observer.snapshot = [&](const Snapshot& snapshot) { snapshots.push_back(snapshot); };
+    RunMotion motion;
+    observer.snapshot = [&](const Snapshot& snapshot) {
+      snapshots.push_back(snapshot);
+      motion.look(scene, snapshot);
+    };
     observer.history = [&](const HistoryRow& row) { rows.push_back(row); };
     const auto interrupted = [] {
       const py::gil_scoped_acquire held;
@@ -152,8 +156,15 @@ py::dict run_scene(const std::string& case_name, const std::string& variant, con
     };
     const RunResult result = run(scene, stepping, observer);
     std::string reason = "errors=False was given";
-    const auto judged = errors ? judge(scene, result, reason, [&](double) { interrupted(); }) : std::nullopt;
-    report = run_json({scene, stepping, result, judged, reason});
+    std::optional<ErrorReport> judged;
+    const auto watch = [&](double) { interrupted(); };
+    if (errors) judged = judge(scene, result, reason, watch, motion);
+    if (std::string no_runs; errors && !judged) {
+      judged = judge_by_runs(scene, result, reference_budget(scene, stepping, false), no_runs, watch, motion);
+      reason += "; " + no_runs;
+    }
+    report = run_json(
+        {scene, stepping, result, judged, reason, verdict_of(scene, result, judged, reason, motion)});
   }
   py::dict history;
   const auto add = [&](const std::string& name, double HistoryRow::*value) {

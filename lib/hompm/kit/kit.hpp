@@ -13,3 +13,5 @@
 #include <hompm/kit/verify/compare.hpp>
 #include <hompm/kit/verify/exact.hpp>
 #include <hompm/kit/verify/judge.hpp>
+#include <hompm/kit/verify/made_reference.hpp>
+#include <hompm/kit/verify/verdict.hpp>
