@@ -108,10 +108,9 @@ constexpr double smooth_order = 1.5;
 /// depend on velocities.
 double highest_order(const Scene& scene, TimeIntegrator integrator) {
   const SmallMotion motion = small_motion(scene);
-  if (motion.damping_rate > 0.0 || motion.viscous_time > 0.0 || motion.force_factor > 1.0) return 1.0;
-  return integrator == TimeIntegrator::euler_cromer ? 1.0
-         : integrator == TimeIntegrator::leapfrog   ? 2.0
-                                                    : 2.5;
+  const bool damped = motion.damping_rate > 0.0 || motion.viscous_time > 0.0 || motion.force_factor > 1.0;
+  if (damped || integrator == TimeIntegrator::euler_cromer) return 1.0;
+  return integrator == TimeIntegrator::leapfrog ? 2.0 : 2.5;
 }
 
 struct Estimate {

@@ -3,7 +3,6 @@
 #include <charconv>
 
 #include <hompm/kit/verify/verdict.hpp>
-#include <hompm/scheme/scheme.hpp>
 
 namespace hompm {
 namespace {
