@@ -154,7 +154,7 @@ class Mutation:
 
     def build(self, *options):
         if not (BUILD / "build.ninja").exists():
-            configured = run("cmake", "-S", TREE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+            configured = run("cmake", "-S", TREE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DHOMPM_UNITE=OFF",
                              f"-DCMAKE_CXX_FLAGS=-O1 -w -include {WORK / 'mutant_switch.hpp'}",
                              *(["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []))
             if configured.returncode != 0:

@@ -48,7 +48,7 @@ if [ $# -gt 0 ]; then
   finish
 fi
 case $which in
-  quick) part "tests" tests quick -LE "^(random|docs|cost|package|reproducibility)$" ;;
+  quick) part "tests" tests quick -LE "^(random|accuracy|docs|cost|package|python|reproducibility)$" ;;
   default) part "tests" tests default ;;
   all) part "tests" tests all -C all ;;
   rest) part "tests" tests rest -C all -L "^all$" ;;

@@ -83,7 +83,8 @@ def main():
         sys.exit(f"tidy: {build} builds {len(entries)} of {len(wanted)} sources; configure it anew")
     folders = collections.defaultdict(list)
     for entry in entries:
-        folders[str(pathlib.Path(entry["file"]).relative_to(ROOT)).split("/")[0]].append(entry)
+        parts = pathlib.Path(entry["file"]).relative_to(ROOT).parts
+        folders["python" if "python" in parts else parts[0]].append(entry)  # that one has headers of its own
     groups = [group for part in folders.values() for group in in_groups(part)]
     folder = build / "tidy"
     folder.mkdir(exist_ok=True)

@@ -67,8 +67,8 @@ std::string range_text(const ValueRule& rule);
 /// What a value must be, to follow "must be": "a whole number from 1 to 5", "a number greater than 0 (m)".
 std::string demand(const ValueRule& rule);
 
-/// The content as the type of the rule holds it (a whole number given for a number becomes a double, and a text such
-/// as "25 kPa" the number in the unit of the rule); nothing where the rule forbids it.
+/// The content as the type of the rule holds it (a whole number given for a number becomes a double, and a
+/// text such as "25 kPa" the number in the unit of the rule); nothing where the rule forbids it.
 std::optional<Content> accepted(const ValueRule& rule, const Content& content);
 
 /// "a, b, c", cut short ("a, b and 7 more") where there are more than 15
