@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <hompm/error.hpp>
+#include <hompm/kit/output/staging.hpp>
 #include <hompm/kit/scene_file/reader.hpp>
 #include <hompm/kit/study/measure.hpp>
 #include <hompm/kit/study/outcome.hpp>
@@ -195,7 +196,8 @@ TEST_CASE("a point is run, judged and kept, and what fails is kept, too", "[stud
   const TemporaryFolder folder;
   for (const Point& point : points) {
     const auto measured = study::measure(study, point, "me", no_check);
-    study::write_whole(study::record_path(folder.path(), point.name), study::record_text(measured.record));
+    hompm::detail::write_whole(study::record_path(folder.path(), point.name),
+                               study::record_text(measured.record));
   }
   write_file(study::times_path(folder.path(), points[0].name),
              study::times_text(

@@ -52,7 +52,7 @@ hompm::RunVerdict verdict(const std::optional<ErrorReport>& errors, const hompm:
 
 TEST_CASE("a bound is the rms error and that of the reference over the rms of the true field") {
   const auto scene = built_in("bar", "large");
-  const hompm::ReferenceFields truth{{1.0, -1.0}, {0.5, -0.5}, {8.0, -8.0}};
+  const hompm::ReferenceFields truth{{{1.0, -1.0}, {0.5, -0.5}, {8.0, -8.0}, {}}, {}};
   const auto found =
       hompm::detail::report_of(scene, two_particles(1.25, 0.5, 6.0), truth, {0.25, 0.125, 0.0}, {});
   CHECK(found.bound.displacement == 0.5);
@@ -71,7 +71,7 @@ TEST_CASE("a field that is small at the end is held against the largest it had, 
   CHECK(motion.largest.displacement == 1.5);
   CHECK(motion.largest.velocity == 4.0);
   CHECK(motion.crossings == 2);  // cells of 25/64 m: each moved by 2.5 m and 6.4 cells
-  const hompm::ReferenceFields truth{{1.0, -1.0}, {0.0, 0.0}, {8.0, -8.0}};
+  const hompm::ReferenceFields truth{{{1.0, -1.0}, {0.0, 0.0}, {8.0, -8.0}, {}}, {}};
   const auto found = hompm::detail::report_of(scene, two_particles(1.0, 0.5, 8.0), truth, {}, motion);
   CHECK(found.bound.velocity == 0.125);
   CHECK(found.velocity.relative_l2 == 0.5);  // the rms, as ever
@@ -84,11 +84,11 @@ TEST_CASE("a field that is small at the end is held against the largest it had, 
 TEST_CASE("a field that is as good as zero all the time is held against what the others make one expect") {
   const auto scene = built_in("bar", "large");
   // A wave with a strain of 1/25 has a stress of 4 Pa; a thousandth is 4e-3 Pa.
-  const hompm::ReferenceFields truth{{1.0, -1.0}, {0.0, 0.0}, {0.0, 0.0}};
+  const hompm::ReferenceFields truth{{{1.0, -1.0}, {0.0, 0.0}, {0.0, 0.0}, {}}, {}};
   const auto found = hompm::detail::report_of(scene, two_particles(1.0, 0.0, 4e-3), truth, {}, {});
   CHECK(std::abs(found.bound.stress - 1.0) < 1e-15);
   const auto still = hompm::detail::report_of(scene, two_particles(0.0, 0.0, 0.0),
-                                              {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}, {}, {});
+                                              {{{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}, {}}, {}}, {}, {});
   CHECK(still.bound.stress == 0.0);
 }
 
