@@ -49,8 +49,7 @@ Tool this_tool() {
             "what is written and printed",
             {"hompm-run --case bar --output out --snapshots 50", "hompm-run --case bar --json",
              "hompm-run --case column --picture column.svg",
-             "hompm-run --picture both.pdf hompm-out/bar-large-bspline-p2-64 "
-             "hompm-out/bar-large-high-order-p3-64"},
+             "hompm-run --picture both.pdf out-bspline out-high-order"},
             {{"output", "DIR", "output folder (default hompm-out/CASE-VARIANT-SCHEME-pDEGREE-CELLS)"},
              {"snapshots", "N", "output.snapshots, after the start"},
              {"probe", "WHERE...",

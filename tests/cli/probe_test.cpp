@@ -101,7 +101,7 @@ TEST_CASE("the default folder tells the setting, and a run of another scene ther
   CHECK(run_command(here + " --quiet").err.empty());
 }
 
-TEST_CASE("--check keeps the snapshots of the case where those of the golden data are among them") {
+TEST_CASE("option --check keeps the snapshots of the case where those of the golden data are among them") {
   const TemporaryFolder scratch;
   const std::string golden = quoted(scratch / "golden");
   REQUIRE(run_command(tool + quick + " --snapshots 2 --set output.history=50 --output " + golden).exit_code ==

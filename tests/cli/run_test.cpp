@@ -186,7 +186,7 @@ TEST_CASE("bad usage and bad scenes: exit 2, one clear line, nothing written") {
       {"--case bar --cells 2.5", "--cells 2.5"},
       {"--case bar --time-step nan", "--time-step nan"},
       {"--case bar --time-step -1", "--time-step -1"},
-      {"--case bar --time-step 1e-4s", "--time-step 1e-4s"},
+      {"--case bar --time-step 1e-4x", "--time-step 1e-4x"},
       {"--case bar --end-time inf", "--end-time inf"},
       {"--case bar --time-step 1e-4 --courant 0.1", "courant"},
       {"--case bar --courant 3", "above the critical step"},
@@ -318,7 +318,7 @@ TEST_CASE(
   CHECK_THAT(nlohmann::json::parse(json(" --errors none"))["errors"].dump(), !contains("bound"));
 }
 
-TEST_CASE("--require: exit 3 unless the run is known to be as good, with the number and what helps") {
+TEST_CASE("option --require: exit 3 unless the run is known to be as good, with the number and what helps") {
   const TemporaryFolder scratch;
   const auto done = [&](const std::string& options) {
     return run_command(tool + " --case bar --cells 16 --end-time 0.5 --time-step 1e-3 --quiet --output " +
@@ -343,7 +343,7 @@ TEST_CASE("--require: exit 3 unless the run is known to be as good, with the num
              contains("--require stress: expected FIELD=BOUND, as in --require stress=1e-2"));
 }
 
-TEST_CASE("--require goes with a golden folder and with a run that is resumed") {
+TEST_CASE("option --require goes with a golden folder and with a run that is resumed") {
   const TemporaryFolder scratch;
   const std::string out = " --quiet --no-vtk --output " + quoted((scratch / "out").string());
   const std::string golden = tool + " --check " HOMPM_SOURCE_DIR "/golden/bar-small-high-order" + out;

@@ -98,10 +98,10 @@ courant = 0.1
 TEST_CASE("messages on a scene made in code name its keys") {
   CHECK(complaint({}).empty());
   CHECK(complaint({{"material.dansity", 1.0}}, "material.density") ==
-        "material.dansity: unknown key `dansity` in [material]; did you mean `density`?");
+        "material.dansity: unknown key `material.dansity`; did you mean `material.density`?");
   CHECK(complaint({}, "material.law").starts_with("material: `material.law` is missing; it must be "));
   CHECK(complaint({{"scheme.degree", 9}}) ==
-        "scheme.degree: `scheme.degree` must be a whole number from 1 to 5, not 9");
+        "scheme.degree: `scheme.degree` must be a whole number from 1 to 5 with the scheme bspline, not 9");
   CHECK(complaint({{"end_time", 0.2}}) == "end_time: is given twice");
   CHECK(complaint({{"effect[1].type", "gravity"}}) ==
         "effect[1].type: comes before effect[0]: elements are given in their order");

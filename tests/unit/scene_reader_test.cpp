@@ -329,8 +329,10 @@ TEST_CASE("An override that is wrong is named with its option, its value and wha
         "--degree 9: `scheme.degree` must be a whole number from 1 to 5 with the scheme tielen2017, not 9");
   CHECK(problem_with({{"end_time", "nan", "--end-time nan"}}) ==
         "--end-time nan: `end_time` must be a number greater than 0 (s), not nan");
-  CHECK(problem_with({{"scheme.time_step", "1e-4s", "--time-step 1e-4s"}}) ==
-        "--time-step 1e-4s: `scheme.time_step` must be a number greater than 0 (s), not \"1e-4s\"");
+  CHECK(problem_with({{"scheme.time_step", "1e-4x", "--time-step 1e-4x"}}) ==
+        "--time-step 1e-4x: `scheme.time_step` must be a number greater than 0 (s), not \"1e-4x\": \"x\" is "
+        "no unit; there are "
+        "kg, g, t, m, s, Hz, N, Pa, J, with G, M, k, c, m, µ before them");
   CHECK(problem_with({set("scheme.cells", "")}) ==
         "--set scheme.cells=: `scheme.cells` must be a whole number from 1 to 10000000, not \"\"");
   CHECK(problem_with({set("scheme.cels", "3")}) ==

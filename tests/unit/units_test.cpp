@@ -70,11 +70,12 @@ TEST_CASE("a scene takes values with units, and symbols of the field lead to the
     return "";
   };
   CHECK(complaint("[material]\nE = 1e5\n")
-            .starts_with("file:2:1: unknown key `E` in [material]; did you mean `youngs_modulus`?"));
+            .find("file:2:1: unknown key `E` in [material]; did you mean `youngs_modulus`?") !=
+        std::string::npos);
   CHECK(complaint("[material]\nrho = 1e5\n").find("did you mean `density`?") != std::string::npos);
   CHECK(complaint("dt = 1e-3\n")
-            .starts_with(
-                "file:1:1: unknown key `dt` outside any table; did you mean `time_step` in [scheme]?"));
+            .find("file:1:1: unknown key `dt` outside any table; did you mean `time_step` in [scheme]?") !=
+        std::string::npos);
   CHECK(complaint("T = 1\n").find("did you mean `end_time`?") != std::string::npos);
   CHECK(complaint("g = 9.81\n").find("gravity is written [[effect]] with type = \"gravity\"") !=
         std::string::npos);

@@ -76,6 +76,14 @@ void demand_sound(const Scene& scene, const Reference& reference, double time) {
 
 }  // namespace
 
+namespace {
+
+std::string number_text(double value) {
+  return std::isnan(value) ? "nan" : std::isinf(value) ? "infinite" : to_text(value);
+}
+
+}  // namespace
+
 std::string outside(const Scene& scene, const MaterialPoint& point) {
   const auto [time, X] = point;
   const double left = scene.body.left();
@@ -83,9 +91,10 @@ std::string outside(const Scene& scene, const MaterialPoint& point) {
   const double rounding =
       4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(left), std::abs(right));
   if (!(time >= 0.0 && time <= scene.end_time))
-    return "t = " + to_text(time) + " s is not within the run, 0 to " + to_text(scene.end_time) + " s";
+    return "t = " + number_text(time) + " s is not within the run, 0 to " + to_text(scene.end_time) + " s";
   if (!(X >= left - rounding && X <= right + rounding))
-    return "X = " + to_text(X) + " m is not in the body, " + to_text(left) + " to " + to_text(right) + " m";
+    return "X = " + number_text(X) + " m is not in the body, " + to_text(left) + " to " + to_text(right) +
+           " m";
   if (scene.rest && time < scene.end_time)
     return "t = " + to_text(time) +
            " s: the solution of a scene with [rest] is its state of rest, t = " + to_text(scene.end_time) +
