@@ -10,12 +10,12 @@
 namespace hompm::detail {
 namespace {
 
-/// Particles of a body in a snapshot.
-struct Particles {
+/// Those of a body in a snapshot.
+struct BodyParticles {
   std::size_t first, last;
 };
 
-Particles particles_of(const Snapshot& snapshot, std::size_t body) {
+BodyParticles particles_of(const Snapshot& snapshot, std::size_t body) {
   if (snapshot.body.empty()) return {0, snapshot.size() - 1};
   const auto begin = snapshot.body.begin();
   const auto [first, end] = std::equal_range(begin, snapshot.body.end(), static_cast<std::int64_t>(body));
@@ -23,7 +23,7 @@ Particles particles_of(const Snapshot& snapshot, std::size_t body) {
 }
 
 /// The value at `place` on the line through the two of the particles that are nearest by `places`.
-double on_line(const Particles& of, const std::vector<double>& places, const std::vector<double>& values,
+double on_line(const BodyParticles& of, const std::vector<double>& places, const std::vector<double>& values,
                double place) {
   if (of.first == of.last) return values[of.first];
   std::size_t i = of.first;
@@ -32,7 +32,7 @@ double on_line(const Particles& of, const std::vector<double>& places, const std
   return values[i] + part * (values[i + 1] - values[i]);
 }
 
-std::optional<ProbeRow> row_of(const Snapshot& snapshot, const ProbeSpec& probe, const Particles& of,
+std::optional<ProbeRow> row_of(const Snapshot& snapshot, const ProbeSpec& probe, const BodyParticles& of,
                                const Body& body) {
   double X = probe.X.value_or(probe.end == "right" ? body.right() : body.left());
   if (probe.x) X = on_line(of, snapshot.position, snapshot.reference_position, *probe.x);

@@ -99,7 +99,10 @@ SchemeVariant try_out(Scene scene, Changes changes, const Held& a, double excuse
   ParticleFields fields{detail::particle_fields(), {}};
   RunObserver observer;
   const double near = 0.5 * stepping.time_step;
+  bool seen_all = false;  // what comes after the last time of A is not looked at
+  observer.stop = [&] { return seen_all; };
   observer.snapshot = [&](const Snapshot& snapshot) {
+    seen_all = snapshot.time > times.back() - near;
     if (std::ranges::any_of(times, [&](double time) { return std::abs(time - snapshot.time) < near; }))
       fields.blocks.push_back(block_of(snapshot));
   };
