@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds hompm and runs the column under self-weight: against the exact solution, and against the golden data.
-# Extra arguments go to hompm-run.
+# Draws the run where gnuplot is installed. Extra arguments go to hompm-run.
 set -eu
 cd "$(dirname "$0")/.."
 cli/setup.sh
@@ -9,4 +9,5 @@ cmake --preset release -DHOMPM_TESTS=OFF -B build/column >build-column.log 2>&1 
   exit 1
 }
 rm build-column.log
+if [ $# -eq 0 ] && command -v gnuplot >/dev/null; then set -- --picture build/column/column.svg; fi
 exec build/column/bin/hompm-run --case column --check golden/column-large-tielen2017 "$@"

@@ -138,7 +138,8 @@ struct Column {
 };
 
 std::vector<Column> columns_of(const Scene& scene, std::span<const MaterialPoint> points,
-                               const ReferenceFields& fields) {
+                               const ExactSolution& exact) {
+  const ReferenceFields& fields = exact.fields;
   std::vector<Column> columns{{"time", {}}, {"X", {}}, {"x", {}}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     columns[0].values.push_back(points[i].time);
@@ -156,6 +157,7 @@ std::vector<Column> columns_of(const Scene& scene, std::span<const MaterialPoint
   for (std::size_t f = 0; f < names.size(); ++f)
     columns.push_back({names[f] + "_error", fields.error.*point_fields[f]});
   columns.push_back(std::move(density_error));
+  if (!exact.body_force.empty()) columns.push_back({"body_force", exact.body_force});
   return columns;
 }
 
@@ -208,11 +210,11 @@ int answer(const CommandLine& given) {
     throw SceneError(Origin{"--jumps"}, "it is not known where this solution jumps: " + exact.reference);
   std::string text;
   if (given.has("json"))
-    text = json_of(exact, columns_of(scene, points, exact.fields));
+    text = json_of(exact, columns_of(scene, points, exact));
   else if (given.has("jumps"))
     text = jumps_csv(jumps_json(exact));
   else
-    text = csv_of(columns_of(scene, points, exact.fields));
+    text = csv_of(columns_of(scene, points, exact));
   if (given.has("output"))
     detail::write_whole(given.text("output"), text);
   else

@@ -210,6 +210,7 @@ py::dict exact_at(const Scene& scene, const py::object& X, const py::object& t) 
   };
   py::dict result = fields(exact.fields);
   result["reference"] = exact.reference;
+  if (!exact.body_force.empty()) result["body_force"] = array_of(std::move(exact.body_force), shape);
   result["error"] = fields(exact.fields.error);
   return result;
 }
@@ -282,7 +283,7 @@ history, by column an array; report, which is run.json; scene, the scene as run.
            R"(At X (m) and t (s), numbers or arrays that broadcast, in any order.
 
 Returns a dict: displacement (m), velocity (m/s), stress (Pa), stretch, arrays of the shape of X and t; reference, which solution it is;
-error, its own at these points by field, empty for a closed form.)");
+error, its own at these points by field, empty for a closed form; of a manufactured solution body_force (m/s²).)");
   py::class_<Stepper>(module, "Simulation", "A scene, named as for run, step by step.")
       .def(py::init([](const std::string& c, const std::string& v, const py::object& s, const py::dict& set,
                        const py::kwargs& others) { return Stepper(scene_of(c, v, s, set, others)); }),

@@ -60,6 +60,10 @@ def main():
         refused = run(work / "prefix/bin/hompm-run", "--scene", HERE / "falling.toml", "--output", work / "out", code=2)
         if '"drag"' not in refused:
             sys.exit(f"hompm-run says about an effect it does not know: {refused}")
+        # So does Python, where the module was built.
+        for module in (work / "prefix").rglob("hompm*.so"):
+            if module.parent.name == "dist-packages":
+                run("env", f"PYTHONPATH={module.parent}", "/usr/bin/python3", "-c", "import hompm; hompm.run(case='bar', end_time=0.01)")
         scenes = sorted((work / "prefix/share/hompm/scenes").glob("*.toml"))
         if not scenes:
             sys.exit("the example scenes are not installed")

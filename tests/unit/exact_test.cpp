@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <hompm/kit/verify/exact.hpp>
@@ -243,6 +244,24 @@ TEST_CASE("the stretch of every reference is the slope of its positions", "[exac
   const Scene viscous = body("linear", fixed_fixed, sine + viscosity);
   const auto start = make_reference(viscous)->at(0.0, std::vector{0.25});
   CHECK(start.stress[0] == Approx(1e5 * (start.stretch[0] - 1.0)).epsilon(1e-12));
+}
+
+TEST_CASE("a manufactured solution obeys the equation of motion with its body force", "[exact]") {
+  for (const char* law : {"rate", "hencky", "neo-hookean"}) {
+    CAPTURE(law);
+    const Scene scene = body(law, fixed_fixed, "[[effect]]\ntype = \"manufactured\"\namplitude = 0.05\n");
+    for (const double X : {0.1, 0.45, 0.8}) {
+      // ρ0 b = ρ0 ∂v/∂t − ∂σ/∂X by central differences, whose error is that of their third derivatives.
+      constexpr double dt = 1e-5, dX = 1e-4, t = 0.03;
+      const std::vector<MaterialPoint> points{{t, X}, {t - dt, X}, {t + dt, X}, {t, X - dX}, {t, X + dX}};
+      const ExactSolution exact = exact_solution(scene, points);
+      const auto& [v, s] = std::tie(exact.fields.velocity, exact.fields.stress);
+      const double by_differences = (v[2] - v[1]) / (2.0 * dt) - (s[4] - s[3]) / (2.0 * dX) / 1000.0;
+      CHECK(std::abs(exact.body_force[0] - by_differences) < 1e-5 * (10.0 + std::abs(exact.body_force[0])));
+    }
+  }
+  CHECK(
+      exact_solution(built_in("column", "large"), std::vector<MaterialPoint>{{0.1, 0.5}}).body_force.empty());
 }
 
 TEST_CASE("points in any order have the values they have in order, and errors of their own", "[exact]") {

@@ -90,4 +90,19 @@ ReferenceFields manufactured_bar(const LinearBody& body, const Material& materia
   return fields;
 }
 
+std::vector<double> manufactured_force(const LinearBody& body, const Material& material, double amplitude,
+                                       double time, std::span<const double> X) {
+  const double wave_number = numerics::pi / body.length;
+  const double now = amplitude * numerics::sin_pi(body.wave_speed * time / body.length);
+  const double omega = wave_number * body.wave_speed;
+  std::vector<double> forces;
+  for (const double x : X) {
+    const double stretch = 1.0 + now * wave_number * numerics::cos_pi(x / body.length);
+    const double tangent = std::visit([&](const auto& law) { return law.tangent(stretch); }, material);
+    const double slope = tangent / body.density * wave_number * wave_number;
+    forces.push_back(now * numerics::sin_pi(x / body.length) * (slope - omega * omega));
+  }
+  return forces;
+}
+
 }  // namespace hompm

@@ -41,4 +41,8 @@ double front_from_left(const LinearBody& body, double time);
 ReferenceFields manufactured_bar(const LinearBody& body, const Material& material, double amplitude,
                                  double time, std::span<const double> X);
 
+/// The body force ü − (∂σ/∂X)/ρ0 (m/s²) of which that is the solution, with the arguments above.
+std::vector<double> manufactured_force(const LinearBody& body, const Material& material, double amplitude,
+                                       double time, std::span<const double> X);
+
 }  // namespace hompm

@@ -185,7 +185,13 @@ std::optional<Reference> manufactured_reference(const Scene& scene, const Refere
                                                                           std::span<const double> X) {
     return manufactured_bar(body, material, amplitude, time, X);
   };
-  return exact("manufactured solution u = G sin(pi X/L) sin(pi c t/L)", watched(at, watch));
+  Reference reference = exact("manufactured solution u = G sin(pi X/L) sin(pi c t/L)", watched(at, watch));
+  reference.body_force = [body, material = make_material(scene.material),
+                          amplitude = scene.effects.front().number("amplitude")](double time,
+                                                                                 std::span<const double> X) {
+    return manufactured_force(body, material, amplitude, time, X);
+  };
+  return reference;
 }
 
 /// How many times a motion repeats itself along the body: between fixed ends, from half waves and under no

@@ -55,6 +55,8 @@ struct Reference {
   /// Where at a time (s) a field or its slope may jump inside the body (m, ascending); an empty function
   /// where that is not known.
   std::function<std::vector<double>(double time)> breaks = {};
+  /// Of a manufactured solution the body force (m/s²) at a time (s) and X (m); else an empty function.
+  std::function<std::vector<double>(double time, std::span<const double> X)> body_force = {};
 };
 
 /// The reference solution of a scene, or nothing where none is known (local damping before rest, say).

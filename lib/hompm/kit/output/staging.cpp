@@ -119,7 +119,7 @@ StagingFolder::~StagingFolder() {
 }
 
 fs::path StagingFolder::add(const std::string& name) {
-  const fs::path path = staging_ / name;
+  fs::path path = staging_ / name;
   create_folder(path.parent_path());
   names_.insert(name);
   return path;

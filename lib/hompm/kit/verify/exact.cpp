@@ -112,7 +112,7 @@ ExactSolution exact_solution(const Scene& scene, std::span<const MaterialPoint> 
   for (const MaterialPoint& point : points)
     if (const std::string why = outside(scene, point); !why.empty()) throw SceneError(Origin{"scene"}, why);
 
-  ExactSolution exact{.reference = reference->description, .fields = {}, .breaks = {}};
+  ExactSolution exact{.reference = reference->description, .fields = {}, .body_force = {}, .breaks = {}};
   if (reference->breaks) exact.breaks.emplace();
   for (const auto field : point_fields) (exact.fields.*field).resize(points.size());
   std::vector<double> X;
@@ -124,6 +124,11 @@ ExactSolution exact_solution(const Scene& scene, std::span<const MaterialPoint> 
     demand_sound(scene, *reference, time);
     if (exact.breaks) add_breaks(scene, *reference, time, *exact.breaks);
     const ReferenceFields fields = reference->at(time, X);
+    if (reference->body_force) {
+      exact.body_force.resize(points.size());
+      const std::vector<double> forces = reference->body_force(time, X);
+      for (std::size_t i = 0; i < X.size(); ++i) exact.body_force[order[first + i]] = forces[i];
+    }
     for (const auto field : point_fields) {
       auto& error = exact.fields.error.*field;
       if (!(fields.error.*field).empty()) error.resize(points.size());

@@ -28,6 +28,7 @@ struct ExactSolution {
   /// One entry per point, in the order of the points. The error is empty for a closed form, whose only error
   /// is rounding; else the difference to a solution with half the resolution, an upper estimate.
   ReferenceFields fields;
+  std::vector<double> body_force;  ///< m/s², of a manufactured solution at the points; else empty
   /// At the times asked for, by time and place; nothing where the solution does not know. Left out are those
   /// within a millionth of the body's length of an end or of each other. Values and slopes are those of the
   /// polynomials of the fourth degree through five points on each side.

@@ -155,6 +155,7 @@ ErrorReport report_of(const Scene& scene, const Snapshot& final, const std::vect
   const double highest = highest_order(scene, candidate.integrator);
   for (const ErrorField& field : error_fields) {
     std::vector<const std::vector<double>*> grids;
+    grids.reserve(levels.size());
     for (const ReferenceFields& level : levels) grids.push_back(&(level.*field.exact));
     const Estimate estimate = own_error(grids, highest);
     own.*field.error = estimate.own;
@@ -211,6 +212,7 @@ std::optional<ErrorReport> judge_by_runs(const Scene& scene, const RunResult& re
     constexpr std::size_t enough_levels = 4;
     for (int level = 0; level < most_levels; ++level) {
       std::vector<int> cells;
+      cells.reserve(bodies.size());
       for (const Scene* body : bodies)
         cells.push_back(std::max(coarsest, body->scheme.cells * coarsest / fewest) << level);
       const auto all_cells = std::accumulate(cells.begin(), cells.end(), std::int64_t{0});
