@@ -238,7 +238,7 @@ std::optional<ErrorReport> errors_of(const Scene& scene, const RunResult& result
 
 std::string errors_asked_for(const CommandLine& given) {
   if (!given.has("errors")) return given.has("check") ? "full" : "auto";
-  const std::string asked = given.text("errors");
+  std::string asked = given.text("errors");
   if (asked != "auto" && asked != "full" && asked != "none")
     throw UsageError("--errors " + asked + ": there are auto, full, none" +
                      suggestion(asked, {"auto", "full", "none"}));

@@ -91,20 +91,25 @@ Scene scene_of(const std::string& case_name, const std::string& variant, const p
   std::vector<Override> overrides;
   for (const auto& [key, value] : changes) {
     const std::string said = std::visit(Text(), value);
-    overrides.push_back({key, said, key + " = " + said});
+    std::string option = key;
+    overrides.push_back({key, said, option.append(" = ").append(said)});
   }
   if (scene.is_none()) return load_builtin(case_name, variant, overrides);
   return load_scene(py::str(scene).cast<std::string>(), overrides);
 }
 
 /// An array that owns the values.
-py::array_t<double> array_of(std::vector<double> values, std::vector<py::ssize_t> shape = {}) {
+py::array_t<double> array_of(std::vector<double> values, std::vector<py::ssize_t> shape) {
   auto held = std::make_unique<std::vector<double>>(std::move(values));
-  if (shape.empty()) shape = {static_cast<py::ssize_t>(held->size())};
   double* const data = held->data();
-  const py::capsule owner(held.release(),
-                          [](void* vector) { delete static_cast<std::vector<double>*>(vector); });
+  const py::capsule owner(held.release(), [](void* vector) {
+    const std::unique_ptr<std::vector<double>> freed(static_cast<std::vector<double>*>(vector));
+  });
   return py::array_t<double>(std::move(shape), data, owner);
+}
+py::array_t<double> array_of(std::vector<double> values) {
+  const auto size = static_cast<py::ssize_t>(values.size());
+  return array_of(std::move(values), {size});
 }
 
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
@@ -169,12 +174,14 @@ py::dict run_scene(const std::string& case_name, const std::string& variant, con
   py::dict history;
   const auto add = [&](const std::string& name, double HistoryRow::*value) {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const HistoryRow& row : rows) values.push_back(row.*value);
     history[py::str(name)] = array_of(std::move(values));
   };
   add("time", &HistoryRow::time);
   for (const auto& column : detail::history_columns) add(std::string(column.name), column.value);
   std::vector<double> times;
+  times.reserve(snapshots.size());
   for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
   using namespace pybind11::literals;
   return py::dict("times"_a = array_of(std::move(times)), "fields"_a = fields_of(snapshots),

@@ -76,6 +76,7 @@ def exact():
     demand(np.array_equal(later["displacement"], solution(X, 0.1)["displacement"]), "times out of order give other bits")
     demand(not np.array_equal(later["displacement"], earlier["displacement"]), "nothing moves")
     demand(abs(later["displacement"][1, 1]) < 1e-12, "the fixed end moves")  # its own error
+    demand(solution(1.0, 0.1)["stress"].shape == (), "a number gives no number")
     demand(np.array_equal(solution(1.0, [0.1, 0.05])["velocity"], [later["velocity"][0, 0], earlier["velocity"][0, 0]]), "t does not broadcast")
     demand(later["error"]["stress"].shape == X.shape and later["error"]["stress"].max() < 1.0, "no error of its own")
     refused(ValueError, lambda: solution([1.5], 0.1), "1.5")
