@@ -194,7 +194,7 @@ std::string jumps_csv(const Json& jumps) {
   return text;
 }
 
-std::string json_of(const ExactSolution& exact, const std::vector<Column>& columns) {
+std::string json_text(const ExactSolution& exact, const std::vector<Column>& columns) {
   Json all{{"reference", exact.reference}, {"closed_form", exact.fields.error.displacement.empty()}};
   for (const Column& column : columns)
     all[column.name] = column.values.empty() ? Json() : Json(column.values);
@@ -210,7 +210,7 @@ int answer(const CommandLine& given) {
     throw SceneError(Origin{"--jumps"}, "it is not known where this solution jumps: " + exact.reference);
   std::string text;
   if (given.has("json"))
-    text = json_of(exact, columns_of(scene, points, exact));
+    text = json_text(exact, columns_of(scene, points, exact));
   else if (given.has("jumps"))
     text = jumps_csv(jumps_json(exact));
   else
